@@ -1,0 +1,109 @@
+// Whole time steps a second: sums, sort, stepping and sensors, over a stretch of a run, on each number of threads asked
+// for. The stretch should lie in disordered flow: on the initial lattice every code is up to twice as fast.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "validation/case.h"
+#include "validation/run_settings.h"
+#include "validation/sensors.h"
+#include "validation/solver_factory.h"
+
+namespace {
+
+using namespace sluice;
+
+struct Stretch {
+  double from_s = 0.2;
+  double to_s = 0.3;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Steps to a time, reading the sensors at the case's rate; returns the seconds that the sensors took.
+double run_to(Solver& solver, const SensorArray& sensors, double to_s, double rate_Hz) {
+  double sensors_s = 0;
+  std::vector<double> values;
+  double next_s = solver.time_s();
+  while (solver.time_s() < to_s) {
+    solver.step();
+    if (solver.time_s() < next_s) continue;
+    const auto start = std::chrono::steady_clock::now();
+    sensors.sample(solver, values);
+    sensors_s += seconds_since(start);
+    next_s += 1 / rate_Hz;
+  }
+  return sensors_s;
+}
+
+void measure(const Case& c, const RunSettings& settings, const Stretch& stretch) {
+  const Scene scene = build_scene(scene_description(c, settings.l0_m, settings.wall_layers));
+  const auto solver = make_solver(c, scene, settings);
+  const SensorArray sensors(c, scene, solver->smoothing_length_m(), settings.solver, settings.walls);
+  run_to(*solver, sensors, stretch.from_s, settings.output_rate_Hz);
+
+  const PhaseTimes before = solver->phases();
+  const std::int64_t first_step = solver->steps();
+  const double pairs = solver->facts().at("pairs_in_reach");
+  const auto start = std::chrono::steady_clock::now();
+  const double sensors_s = run_to(*solver, sensors, stretch.to_s, settings.output_rate_Hz);
+  const double wall_s = seconds_since(start);
+
+  const auto steps = static_cast<double>(solver->steps() - first_step);
+  const auto fluid = static_cast<double>(solver->fluid_count());
+  const auto bytes = static_cast<double>(solver->memory_bytes());
+  fmt::print("{} {} walls, l0 = {} m, {} threads: {:.0f} fluid and {} solid particles\n", settings.solver,
+             settings.walls, settings.l0_m, settings.threads, fluid, solver->solid_count());
+  fmt::print("  {:8.3f} million fluid particle-steps a second ({:.0f} steps in {:.2f} s)\n",
+             1e-6 * fluid * steps / wall_s, steps, wall_s);
+  fmt::print("  {:8.1f} neighbours a fluid particle, {:.0f} million one-sided pair interactions a second and thread\n",
+             pairs / fluid, 1e-6 * pairs * steps / wall_s / settings.threads);
+  fmt::print("  {:8.0f} bytes a particle\n", bytes / (fluid + static_cast<double>(solver->solid_count())));
+  for (const auto& [phase, total_s] : solver->phases()) {
+    const auto earlier = before.find(phase);
+    fmt::print("  {:6.1f} %  {}\n", 100 * (total_s - (earlier == before.end() ? 0 : earlier->second)) / wall_s, phase);
+  }
+  fmt::print("  {:6.1f} %  sensors\n\n", 100 * sensors_s / wall_s);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Times whole steps of a solver in violent flow"};
+  std::string case_name = "kleefsman";
+  std::vector<double> distances_m{0.02};
+  std::vector<int> threads{1, 2};
+  std::vector<std::string> walls{"dynamic", "extrapolated"};
+  Stretch stretch;
+  app.add_option("--case", case_name, "Case")->capture_default_str();
+  app.add_option("--l0", distances_m, "Particle distances [m]")->capture_default_str();
+  app.add_option("--threads", threads, "Numbers of threads")->capture_default_str();
+  app.add_option("--walls", walls, "Wall models")->capture_default_str();
+  app.add_option("--from", stretch.from_s, "Begin of the timed stretch [s]")->capture_default_str();
+  app.add_option("--to", stretch.to_s, "End of the timed stretch [s]")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const Case c = load_case(case_name);
+    for (const double l0_m : distances_m) {
+      for (const std::string& wall_model : walls) {
+        for (const int n : threads) {
+          RunRequest request;
+          request.walls = wall_model;
+          request.l0_m = l0_m;
+          request.threads = n;
+          measure(c, resolve_settings(c, request), stretch);
+        }
+      }
+    }
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "step_rate: error: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

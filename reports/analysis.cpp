@@ -1,0 +1,236 @@
+#include "reports/analysis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+
+#include "reports/text.h"
+
+namespace sluice {
+
+namespace {
+
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Our own solvers have names that are abbreviations; those of other codes stay as their owners write them.
+std::string solver_name(const RunRecord& record) {
+  return record.own ? upper(record.solver) : record.solver;
+}
+
+/// A path that says nothing about the machine: relative to the working directory, or the last component.
+std::string shown_directory(const std::filesystem::path& path) {
+  if (path.is_relative()) return path.lexically_normal().generic_string();
+  const std::filesystem::path relative = path.lexically_relative(std::filesystem::current_path());
+  if (!relative.empty() && *relative.begin() != "..") return relative.generic_string();
+  const std::filesystem::path clean = path.lexically_normal();
+  return (clean.has_filename() ? clean.filename() : clean.parent_path().filename()).generic_string();
+}
+
+/// The model in the middle of a column's name, "P1_wall_Pa" for P1 in Pa; nullopt when it is another sensor or
+/// quantity.
+std::optional<std::string> model_of(const std::string& column, const CaseSensor& sensor) {
+  const std::string prefix = sensor.name + "_";
+  const std::string suffix = "_" + std::string(unit_of(sensor.kind));
+  if (column == probe_column(sensor)) return "";
+  if (!column.starts_with(prefix) || !column.ends_with(suffix)) return std::nullopt;
+  if (column.size() <= prefix.size() + suffix.size()) return std::nullopt;
+  return column.substr(prefix.size(), column.size() - prefix.size() - suffix.size());
+}
+
+SensorReading make_reading(const CaseSensor& sensor, const std::string& model, Series series,
+                           const MeasuredSeries* measured, Window window) {
+  SensorReading reading;
+  reading.sensor = sensor.name;
+  reading.kind = sensor.kind;
+  reading.model = model;
+  reading.series = std::move(series);
+  if (reading.series.t_s.empty()) {
+    reading.comparison.remarks.push_back("no samples");
+    return reading;
+  }
+  reading.comparison =
+      measured != nullptr ? compare(reading.series, *measured, window) : describe(reading.series, window);
+  return reading;
+}
+
+void read_sensor(AnalysedRun& run, const CaseSensor& sensor, const MeasuredSeries* measured, Window window) {
+  std::vector<std::string> models;
+  for (const std::string& column : run.record.probes.names())
+    if (const auto model = model_of(column, sensor)) models.push_back(*model);
+  const std::string primary = run.record.text("sensors." + sensor.name + ".primary").value_or("");
+  const bool named = !primary.empty() && std::find(models.begin(), models.end(), primary) != models.end();
+  for (const std::string& model : models) {
+    if (model.empty() && named) continue;  // repeats the primary model's column
+    run.readings.push_back(
+        make_reading(sensor, model, run.record.probes.column(probe_column(sensor, model)), measured, window));
+    // A dynamic wall's density can rise but never fall below the reference: its own pressure means nothing.
+    run.readings.back().warning_only = run.record.walls == "dynamic" && model == "wall";
+    run.readings.back().primary = named ? model == primary : model.empty() || models.size() == 1;
+  }
+}
+
+void note_problems(AnalysedRun& run, Window window) {
+  const RunRecord& record = run.record;
+  if (record.status() == "running") run.problems.push_back("still running when the report was made");
+  if (record.status() == "interrupted") run.problems.push_back("interrupted before its end");
+  if (record.status() == "failed")
+    run.problems.push_back("failed: " + record.text("error").value_or("no reason recorded"));
+  const std::vector<double>& times = record.probes.times_s();
+  if (times.empty())
+    run.problems.push_back("probes.csv has no rows");
+  else if (times.back() < window.end_s - 0.01)
+    run.problems.push_back(
+        fmt::format("covers {} s of a window that ends at {} s: what needs the whole window is missing",
+                    fixed(times.back(), 2), fixed(window.end_s, 2)));
+  if (record.number("lost.through_walls").value_or(0) > 0)
+    run.problems.push_back(fmt::format("fluid particles that went through a wall, an error of the method: {}",
+                                       grouped(std::llround(*record.number("lost.through_walls")))));
+}
+
+/// Own runs first, then as a reader would look them up.
+bool comes_before(const RunRecord& a, const RunRecord& b) {
+  auto order = [](const RunRecord& r) {
+    return std::make_tuple(!r.own, r.solver, r.walls != "extrapolated", r.walls, -r.l0_m,
+                           -r.alpha().value_or(std::numeric_limits<double>::infinity()), r.path);
+  };
+  return order(a) < order(b);
+}
+
+void name_run(AnalysedRun& run, std::size_t index) {
+  const RunRecord& r = run.record;
+  run.key = fmt::format("R{}", index + 1);
+  run.group = solver_name(r) + (r.walls.empty() ? "" : ", " + r.walls + " walls");
+  const std::string alpha = r.alpha() ? fmt::format("α = {}, ", shortest(*r.alpha())) : "";
+  run.short_label = fmt::format("{} {}l0 {:g} mm", run.key, alpha, 1000 * r.l0_m);
+  run.label = fmt::format("{} {}{}, {}l0 {:g} mm", run.key, solver_name(r), r.walls.empty() ? "" : " " + r.walls, alpha,
+                          1000 * r.l0_m);
+  run.directory = shown_directory(r.path);
+}
+
+void load_measured(ReportData& data) {
+  const std::filesystem::path file = resolve_in_source_tree(data.the_case.measured);
+  if (data.the_case.measured.empty()) {
+    data.measured_problem = "the case names no measured series";
+    return;
+  }
+  if (!std::filesystem::exists(file)) {
+    data.measured_problem =
+        fmt::format("{} does not exist (remedy: sluice data digest)", data.the_case.measured.generic_string());
+    return;
+  }
+  data.measured = MeasuredData::load(file);
+}
+
+std::vector<RunRecord> read_runs(const std::vector<std::filesystem::path>& run_directories) {
+  if (run_directories.empty())
+    throw std::runtime_error("report: no run directory given (remedy: sluice report DIR...)");
+  std::vector<RunRecord> records;
+  for (const auto& directory : run_directories) records.push_back(read_run(directory));
+  for (const RunRecord& record : records)
+    if (record.case_name != records.front().case_name)
+      throw std::runtime_error(fmt::format(
+          "report: {} is of case {}, {} of case {}; a report compares runs of one case (remedy: one report a case)",
+          records.front().path.string(), records.front().case_name, record.path.string(), record.case_name));
+  std::sort(records.begin(), records.end(), comes_before);
+  return records;
+}
+
+}  // namespace
+
+std::string SensorReading::remarked_model() const {
+  if (warning_only) return model_name() + " (warning only)";
+  return model_name() + (primary && !model.empty() ? " (primary)" : "");
+}
+
+const SensorReading* AnalysedRun::primary(const std::string& sensor) const {
+  for (const SensorReading& reading : readings)
+    if (reading.sensor == sensor && reading.primary) return &reading;
+  return nullptr;
+}
+
+const SensorReading* AnalysedRun::find(const std::string& sensor, const std::string& model) const {
+  for (const SensorReading& reading : readings)
+    if (reading.sensor == sensor && reading.model == model) return &reading;
+  return nullptr;
+}
+
+std::vector<const SensorReading*> AnalysedRun::of(const std::string& sensor) const {
+  std::vector<const SensorReading*> found;
+  for (const SensorReading& reading : readings)
+    if (reading.sensor == sensor) found.push_back(&reading);
+  std::stable_sort(found.begin(), found.end(), [](auto* a, auto* b) { return a->primary > b->primary; });
+  return found;
+}
+
+const MeasuredSeries* ReportData::measured_series(const std::string& sensor) const {
+  const CaseSensor* s = the_case.find_sensor(sensor);
+  if (s == nullptr || s->measured.empty() || !measured || !measured->has(s->measured)) return nullptr;
+  return &measured->series(s->measured);
+}
+
+std::vector<std::string> ReportData::sensors(SensorKind kind) const {
+  std::vector<std::string> names;
+  for (const CaseSensor& sensor : the_case.sensors)
+    if (sensor.kind == kind) names.push_back(sensor.name);
+  return names;
+}
+
+std::vector<std::string> ReportData::headline_sensors() const {
+  std::vector<std::string> names;
+  for (const PublishedImpulse& row : the_case.published.impulses)
+    if (std::find(names.begin(), names.end(), row.sensor) == names.end()) names.push_back(row.sensor);
+  return names.empty() ? sensors(SensorKind::pressure) : names;
+}
+
+ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
+  std::vector<RunRecord> records = read_runs(run_directories);
+  ReportData data;
+  data.the_case = load_case(records.front().case_name);
+  data.window = {data.the_case.window.start_s, data.the_case.window.end_s};
+  load_measured(data);
+  for (RunRecord& record : records) {
+    AnalysedRun run;
+    run.record = std::move(record);
+    name_run(run, data.runs.size());
+    for (const CaseSensor& sensor : data.the_case.sensors)
+      read_sensor(run, sensor, data.measured_series(sensor.name), data.window);
+    run.acceptance = check_acceptance(data.the_case, run.record, data.measured ? &*data.measured : nullptr);
+    note_problems(run, data.window);
+    data.runs.push_back(std::move(run));
+  }
+  return data;
+}
+
+std::optional<double> mean_impulse_error(const ReportData& data, const AnalysedRun& run, const std::string& model) {
+  double sum = 0;
+  int count = 0;
+  for (const std::string& sensor : data.headline_sensors()) {
+    const SensorReading* reading = model.empty() ? run.primary(sensor) : run.find(sensor, model);
+    if (reading == nullptr) return std::nullopt;
+    const std::optional<double> deviation = reading->comparison.impulse.deviation();
+    if (!deviation) return std::nullopt;
+    sum += std::abs(*deviation);
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
+std::vector<RunGroup> run_groups(const ReportData& data, std::size_t limit) {
+  std::vector<RunGroup> groups;
+  for (const AnalysedRun& run : data.runs) {
+    if (groups.empty() || groups.back().title != run.group || groups.back().runs.size() >= limit)
+      groups.push_back({run.group, {}});
+    groups.back().runs.push_back(&run);
+  }
+  return groups;
+}
+
+}  // namespace sluice

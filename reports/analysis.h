@@ -1,0 +1,77 @@
+// What a report says about its runs, as numbers: every reading of every run compared with the measurement.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/acceptance.h"
+#include "validation/case.h"
+#include "validation/measured.h"
+#include "validation/metrics.h"
+#include "validation/run_directory.h"
+
+namespace sluice {
+
+/// One sensor of one run as one model reads it.
+struct SensorReading {
+  std::string sensor;
+  SensorKind kind = SensorKind::pressure;
+  std::string model;     ///< "wall", "kernel", "column", "top"; empty: as another code delivers it
+  bool primary = false;  ///< the reading that the case names for this solver and wall model
+  Series series;
+  Comparison comparison;
+
+  bool warning_only = false;  ///< the wall's own pressure with dynamic walls, which means nothing
+
+  /// The model in words, "as delivered" when there is none.
+  std::string model_name() const { return model.empty() ? "as delivered" : model; }
+  /// The same with "(primary)" or "(warning only)".
+  std::string remarked_model() const;
+};
+
+struct AnalysedRun {
+  RunRecord record;
+  std::string key;          ///< "R1", the same in every table and figure of the report
+  std::string label;        ///< "R1 WCSPH extrapolated, α = 0.01, l0 20 mm"
+  std::string short_label;  ///< "R1 α = 0.01, l0 20 mm": beside `group`
+  std::string group;        ///< "WCSPH, extrapolated walls": runs that are drawn in one panel
+  std::string directory;    ///< as shown: never an absolute path
+  std::vector<SensorReading> readings;
+  std::vector<AcceptanceCheck> acceptance;  ///< every row of the case, in its order
+  std::vector<std::string> problems;        ///< what the reader should know before trusting this run
+
+  const SensorReading* primary(const std::string& sensor) const;
+  const SensorReading* find(const std::string& sensor, const std::string& model) const;
+  std::vector<const SensorReading*> of(const std::string& sensor) const;
+};
+
+struct ReportData {
+  Case the_case;
+  std::optional<MeasuredData> measured;
+  std::string measured_problem;  ///< why there is none
+  Window window;
+  std::vector<AnalysedRun> runs;  ///< own before others, then by solver, walls, l0 (coarse first), alpha (large first)
+
+  const MeasuredSeries* measured_series(const std::string& sensor) const;
+  std::vector<std::string> sensors(SensorKind kind) const;
+  /// The pressure sensors for which the paper prints impulses, in its order (all pressure sensors if it prints none).
+  std::vector<std::string> headline_sensors() const;
+};
+
+/// Reads the runs and compares them. Throws std::runtime_error when no run is given, a run cannot be read, the runs are
+/// of several cases, or the case is unknown.
+ReportData analyse(const std::vector<std::filesystem::path>& run_directories);
+
+/// Mean of |deviation| of the impulses over the headline sensors; missing when one of them is. `model` empty: primary.
+std::optional<double> mean_impulse_error(const ReportData& data, const AnalysedRun& run, const std::string& model = "");
+
+/// Groups of runs for figures: by solver and walls, at most `limit` in each.
+struct RunGroup {
+  std::string title;
+  std::vector<const AnalysedRun*> runs;
+};
+std::vector<RunGroup> run_groups(const ReportData& data, std::size_t limit);
+
+}  // namespace sluice

@@ -1,0 +1,41 @@
+// The report's figures, each drawn from the analysed runs into the report's folder.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "reports/analysis.h"
+#include "reports/document.h"
+#include "reports/plot.h"
+
+namespace sluice {
+
+/// Where figures go and what they are drawn from.
+struct FigureMaker {
+  const ReportData& data;
+  std::filesystem::path report_folder;  ///< figures/ below it
+  bool enabled = true;                  ///< false: no picture is drawn, every list comes back empty
+};
+
+/// Draws a figure into figures/ and returns it as the document's block. Throws as draw().
+Picture draw_picture(const FigureMaker& maker, const PlotFigure& figure, const std::string& caption,
+                     const std::string& description, bool wide = false);
+
+/// The whole window: wave heights as they are, pressures after a 10 ms running mean; one panel a group of runs.
+std::vector<Picture> series_figures(const FigureMaker& maker, SensorKind kind);
+/// The same wave heights as read by model `top`, where that is not the primary reading.
+std::vector<Picture> spray_figures(const FigureMaker& maker);
+/// The first impact on each pressure sensor, raw.
+std::vector<Picture> impact_figures(const FigureMaker& maker);
+
+/// Impulse deviations of every run beside the paper's, at the headline sensors.
+std::vector<Picture> impulse_figures(const FigureMaker& maker);
+std::vector<Picture> boundary_model_figures(const FigureMaker& maker);
+std::vector<Picture> alpha_figures(const FigureMaker& maker);
+std::vector<Picture> resolution_figures(const FigureMaker& maker);
+std::vector<Picture> cost_figures(const FigureMaker& maker);
+
+/// The paper's figure 3: particles coloured by dimensionless pressure, one picture a run that kept snapshots.
+std::vector<Picture> snapshot_figures(const FigureMaker& maker);
+
+}  // namespace sluice

@@ -1,0 +1,175 @@
+// The paper's figure 3: particles at a few times, coloured by dimensionless pressure. Drawn as PNG: tens of thousands
+// of discs are too many for a vector drawing.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include "reports/figures.h"
+#include "reports/gnuplot.h"
+#include "reports/snapshot_view.h"
+#include "reports/text.h"
+#include "solvers/snapshot.h"
+
+namespace sluice {
+
+namespace {
+
+constexpr double largest_p_star = 1.0;
+constexpr double nearest_within_s = 0.03;
+constexpr int panel_width_px = 760;
+
+std::vector<SnapshotEntry> entries_of(const AnalysedRun& run) {
+  const std::filesystem::path collection = run.record.path / "snapshots.pvd";
+  if (std::filesystem::exists(collection)) return read_pvd(collection);
+  std::vector<SnapshotEntry> entries;
+  for (const auto& file : run.record.snapshots()) entries.push_back({read_vtp(file).time_s, file});
+  return entries;
+}
+
+/// The snapshot nearest each of the case's times; times without one are left out.
+std::vector<SnapshotEntry> chosen_entries(const AnalysedRun& run, const std::vector<double>& times_s) {
+  std::vector<SnapshotEntry> chosen;
+  const std::vector<SnapshotEntry> entries = entries_of(run);
+  for (double time : times_s) {
+    const auto nearest = std::min_element(entries.begin(), entries.end(), [&](const auto& a, const auto& b) {
+      return std::abs(a.time_s - time) < std::abs(b.time_s - time);
+    });
+    if (nearest != entries.end() && std::abs(nearest->time_s - time) <= nearest_within_s) chosen.push_back(*nearest);
+  }
+  return chosen;
+}
+
+void write_discs(std::ofstream& out, const std::vector<SnapshotDisc>& discs) {
+  for (const SnapshotDisc& disc : discs) out << fmt::format("{:.4f} {:.4f} {}\n", disc.x, disc.y, disc.colour);
+  out << "\n\n";
+}
+
+std::string edges_script(const Box& box, const char* colour) {
+  std::string out;
+  for (const auto& [from, to] : box_edges(box))
+    out += fmt::format("set arrow from {:.4f},{:.4f} to {:.4f},{:.4f} nohead lw 1 lc rgb '{}' back\n", from.first,
+                       from.second, to.first, to.second, colour);
+  return out;
+}
+
+constexpr const char* script_head = R"(# Drawn by sluice report from the snapshots of {0}
+# (the projected particles are made anew each time and not kept).
+set terminal pngcairo size {1},{2} font 'DejaVu Sans,15' background '#ffffff'
+set output '{3}.png'
+set encoding utf8
+unset border
+unset tics
+unset key
+set size ratio -1
+set lmargin 1
+set rmargin 1
+set tmargin 2
+set bmargin 0
+set xrange [{4:.4f}:{5:.4f}]
+set yrange [{6:.4f}:{7:.4f}]
+)";
+
+constexpr const char* colour_bar = R"(set palette defined ({0})
+set cbrange [0:{1}]
+set cbtics 0.25
+set cblabel 'dimensionless pressure P* = P / (ρ g H_W)' offset 0,0.3
+set colorbox horizontal user origin screen 0.3,{2:.4f} size screen 0.4,{3:.4f}
+unset arrow
+unset title
+plot '{4}.dat' index 0 using (NaN):(NaN):(0) with points palette
+unset multiplot
+)";
+
+std::string palette_stops() {
+  std::string out;
+  for (int i = 0; i <= 9; ++i) out += fmt::format("{}{} '#{:06X}'", i > 0 ? ", " : "", i, viridis(i / 9.0));
+  return out;
+}
+
+/// Sizes of the picture, in pixels and in metres of the drawing plane.
+struct SnapshotFrame {
+  double left = 0, right = 0, bottom = 0, top = 0;
+  int rows = 1;
+  int total_px = 0;
+};
+
+constexpr int title_px = 34;
+constexpr int bar_px = 116;
+
+SnapshotFrame frame_of(const Case& the_case, std::size_t panels) {
+  constexpr double margin = 0.05;
+  const auto [left, bottom] = project(the_case.tank.lower);
+  const auto [right, top] = project(the_case.tank.upper);
+  SnapshotFrame frame{left - margin, right + margin, bottom - margin, top + margin, 1, 0};
+  frame.rows = (static_cast<int>(panels) + 1) / 2;
+  const double shape = (frame.top - frame.bottom) / (frame.right - frame.left);
+  frame.total_px = frame.rows * (static_cast<int>(panel_width_px * shape) + title_px) + bar_px;
+  return frame;
+}
+
+std::string snapshot_script_head(const Case& the_case, const SnapshotFrame& frame, const std::string& name,
+                                 const std::string& label) {
+  const double total = frame.total_px;
+  std::string script = fmt::format(fmt::runtime(script_head), label, 2 * panel_width_px, frame.total_px, name,
+                                   frame.left, frame.right, frame.bottom, frame.top);
+  script += fmt::format("set multiplot layout {},2 margins 0.01,0.99,{:.4f},{:.4f} spacing 0.01,{:.4f}\n", frame.rows,
+                        bar_px / total, 1.0 - 30.0 / total, title_px / total);
+  script += edges_script(the_case.tank, "#8A979F");
+  for (const Box& box : the_case.obstacles) script += edges_script(box, "#8A979F");
+  return script;
+}
+
+std::string snapshot_caption(const Case& the_case, const AnalysedRun& run, const std::string& times) {
+  const int number = the_case.published.snapshots_figure;
+  const std::string figure = number > 0 ? fmt::format(" (the paper's figure {})", number) : "";
+  return fmt::format(
+      "{}: particles at t = {} s{}, coloured by P*; values above {:g} take the brightest colour. Only what nothing "
+      "nearer "
+      "hides is drawn; the tank's own walls are left out.",
+      run.label, times, figure, largest_p_star);
+}
+
+Picture draw_snapshots(const FigureMaker& maker, const AnalysedRun& run, const std::vector<SnapshotEntry>& entries) {
+  const Case& the_case = maker.data.the_case;
+  const std::string name = "snapshots_" + run.key;
+  const std::filesystem::path folder = maker.report_folder / "figures";
+  std::filesystem::create_directories(folder);
+  const SnapshotFrame frame = frame_of(the_case, entries.size());
+  std::string script = snapshot_script_head(the_case, frame, name, run.label);
+  std::ofstream data(folder / (name + ".dat"));
+  int index = 0;
+  std::string times;
+  for (const SnapshotEntry& entry : entries) {
+    write_discs(data, snapshot_discs(read_vtp(entry.file), the_case, run.record.l0_m, largest_p_star));
+    script += fmt::format("set title 't = {:.2f} s' offset 0,-0.5\n", entry.time_s);
+    script += fmt::format(
+        "plot '{}.dat' index {} using 1:2:({:.5f}):3 with circles lc rgb variable fill solid 1.0 noborder\n", name,
+        index++, 0.72 * run.record.l0_m);
+    times += fmt::format("{}{:.2f}", times.empty() ? "" : ", ", entry.time_s);
+  }
+  data.close();
+  script += fmt::format(fmt::runtime(colour_bar), palette_stops(), largest_p_star, 80.0 / frame.total_px,
+                        18.0 / frame.total_px, name);
+  std::ofstream(folder / (name + ".gp")) << script;
+  run_gnuplot(folder, {name + ".gp"});
+  std::filesystem::remove(folder / (name + ".dat"));
+  return {name, snapshot_caption(the_case, run, times), "Particles of the dam break coloured by dimensionless pressure",
+          std::filesystem::path("figures") / (name + ".png"), true};
+}
+
+}  // namespace
+
+std::vector<Picture> snapshot_figures(const FigureMaker& maker) {
+  std::vector<Picture> pictures;
+  if (!maker.enabled) return pictures;
+  for (const AnalysedRun& run : maker.data.runs) {
+    const auto entries = chosen_entries(run, maker.data.the_case.snapshot_times_s);
+    if (!entries.empty()) pictures.push_back(draw_snapshots(maker, run, entries));
+  }
+  return pictures;
+}
+
+}  // namespace sluice

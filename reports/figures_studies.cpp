@@ -1,0 +1,125 @@
+// Figures of errors against resolution and against cost.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/figures.h"
+#include "reports/plot.h"
+#include "reports/studies.h"
+
+namespace sluice {
+
+namespace {
+
+std::string runs_label(const std::vector<const AnalysedRun*>& runs) {
+  std::string out;
+  for (const AnalysedRun* run : runs) out += (out.empty() ? "" : ", ") + run->label;
+  return out;
+}
+
+}  // namespace
+
+std::vector<Picture> resolution_figures(const FigureMaker& maker) {
+  std::vector<Picture> pictures;
+  if (!maker.enabled) return pictures;
+  int index = 0;
+  for (const ResolutionSeries& series : resolution_series(maker.data)) {
+    PlotFigure figure;
+    figure.name = fmt::format("resolution_{}", ++index);
+    figure.source = runs_label(series.runs);
+    PlotPanel panel;
+    panel.title = series.title;
+    panel.x_label = "particle distance l0 [mm]";
+    panel.y_label = "error, unsigned [%]";
+    int style = 0;
+    for (const ResolutionQuantity& quantity : resolution_quantities(maker.data, series)) {
+      if (!quantity.name.ends_with("[%]") || style >= plot_style_count()) continue;
+      PlotCurve curve;
+      curve.label = quantity.name.substr(0, quantity.name.size() - 4);
+      curve.style = style++;
+      curve.every_point = true;
+      for (const ResolutionPoint& point : quantity.points) {
+        curve.x.push_back(1000 * point.l0_m);
+        curve.y.push_back(std::abs(point.error));
+      }
+      panel.curves.push_back(std::move(curve));
+    }
+    panel.y_range = {0.0, std::nullopt};
+    figure.panels = {panel};
+    pictures.push_back(draw_picture(maker, figure,
+                                    fmt::format("Errors against the particle distance, {}.", series.title),
+                                    "Errors of impulses and wave heights against the particle distance"));
+  }
+  return pictures;
+}
+
+namespace {
+
+/// Points that fall on each other share one label.
+void merge_labels(PlotPanel& panel, double largest_y) {
+  struct Label {
+    double x = 0, y = 0;
+    std::string* text = nullptr;
+  };
+  std::vector<Label> kept;
+  for (PlotCurve& curve : panel.curves)
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      const auto close = [&](const Label& l) {
+        return std::abs(std::log(curve.x[i] / l.x)) < 0.3 && std::abs(curve.y[i] - l.y) < 0.06 * largest_y;
+      };
+      const auto found = std::find_if(kept.begin(), kept.end(), close);
+      if (found == kept.end()) {
+        kept.push_back({curve.x[i], curve.y[i], &curve.point_labels[i]});
+        continue;
+      }
+      *found->text += ", " + curve.point_labels[i];
+      curve.point_labels[i].clear();
+    }
+}
+
+}  // namespace
+
+std::vector<Picture> cost_figures(const FigureMaker& maker) {
+  std::vector<Picture> pictures;
+  if (!maker.enabled || maker.data.runs.size() < 2) return pictures;
+  PlotPanel panel;
+  panel.x_label = "wall time of the run [min]";
+  panel.y_label = "mean deviation of impulses [%]";
+  panel.log_x = true;
+  panel.y_range = {0.0, std::nullopt};
+  int style = 0;
+  std::size_t points = 0;
+  for (const RunGroup& group : run_groups(maker.data, maker.data.runs.size())) {
+    PlotCurve curve;
+    curve.label = group.title;
+    curve.style = style++;
+    curve.points_only = true;
+    for (const AnalysedRun* run : group.runs) {
+      const auto error = mean_impulse_error(maker.data, *run);
+      const auto seconds = run->record.number("wall_time_s");
+      if (!error || !seconds || *seconds <= 0) continue;
+      curve.x.push_back(*seconds / 60);
+      curve.y.push_back(100 * *error);
+      curve.point_labels.push_back(run->key);
+    }
+    points += curve.x.size();
+    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+  }
+  if (points < 2) return pictures;
+  double largest = 0;
+  for (const PlotCurve& curve : panel.curves)
+    largest = std::max(largest, *std::max_element(curve.y.begin(), curve.y.end()));
+  merge_labels(panel, largest);
+  PlotFigure figure;
+  figure.name = "error_and_cost";
+  figure.source = "primary readings";
+  figure.panels = {panel};
+  pictures.push_back(draw_picture(maker, figure,
+                                  "Error against cost: down and to the left is better. Wall times hold for the "
+                                  "machine and the threads named under Provenance.",
+                                  "Mean deviation of impulses against wall time, one point a run"));
+  return pictures;
+}
+
+}  // namespace sluice

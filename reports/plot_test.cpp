@@ -1,0 +1,117 @@
+#include "reports/plot.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "reports/document.h"
+#include "reports/gnuplot.h"
+#include "reports/snapshot_view.h"
+
+namespace sluice {
+namespace {
+
+std::string read(const std::filesystem::path& file) {
+  std::ostringstream out;
+  out << std::ifstream(file).rdbuf();
+  return out.str();
+}
+
+std::filesystem::path folder(const std::string& name) {
+  const auto path = std::filesystem::path(testing::TempDir()) / ("sluice_plot_" + name);
+  std::filesystem::remove_all(path);
+  return path;
+}
+
+TEST(ThinOut, KeepsPeaksAndOrder) {
+  std::vector<double> x;
+  std::vector<double> y;
+  for (int i = 0; i <= 6000; ++i) {
+    x.push_back(0.001 * i);
+    y.push_back(std::sin(0.01 * i));
+  }
+  y[2345] = 50;
+  y[2346] = -50;
+  const auto [tx, ty] = thin_out(x, y, 0, 6, 100);
+  EXPECT_LE(tx.size(), 202u);
+  EXPECT_TRUE(std::is_sorted(tx.begin(), tx.end()));
+  EXPECT_EQ(*std::max_element(ty.begin(), ty.end()), 50);
+  EXPECT_EQ(*std::min_element(ty.begin(), ty.end()), -50);
+  EXPECT_NEAR(tx[static_cast<std::size_t>(std::max_element(ty.begin(), ty.end()) - ty.begin())], 2.345, 1e-12);
+}
+
+TEST(ThinOut, KeepsToTheWindow) {
+  const auto [x, y] = thin_out({0, 1, 2, 3, 4}, {0, 1, 2, 3, 4}, 1, 3, 10);
+  EXPECT_EQ(x, (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(y, (std::vector<double>{1, 2, 3}));
+}
+
+TEST(Draw, MakesAPictureFromAScriptThatNamesItsData) {
+  const auto out = folder("draw");
+  PlotFigure figure;
+  figure.name = "line";
+  figure.panels.resize(2);
+  figure.panels[0].y_label = "height_1 [m]";
+  figure.panels[0].curves.push_back({"a & b_c", {0, 1, 2}, {0, NAN, 4}, CurveLook::run, 0, false, false, {}});
+  figure.panels[1].curves.push_back({"empty", {}, {}, CurveLook::run, 0, false, false, {}});
+  const auto picture = draw(figure, out);
+  const std::string svg = read(picture);
+  EXPECT_NE(svg.find("<svg"), std::string::npos);
+  EXPECT_NE(svg.find("a &amp; b_c"), std::string::npos) << "labels are not read as markup";
+  EXPECT_NE(svg.find("no data"), std::string::npos);
+  EXPECT_EQ(read(out / "line.dat").find("nan"), std::string::npos);
+}
+
+TEST(Gnuplot, SaysWhatIsWrongWithAScript) {
+  const auto out = folder("broken");
+  std::filesystem::create_directories(out);
+  std::ofstream(out / "broken.gp") << "plot nonsense from nowhere\n";
+  try {
+    run_gnuplot(out, {"broken.gp"});
+    FAIL() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("broken.gp"), std::string::npos) << error.what();
+  }
+}
+
+TEST(SvgForPage, PrefixesIdentifiersAndDropsTheFixedSize) {
+  const std::string svg = svg_for_page(
+      "<?xml version=\"1.0\"?>\n<svg width=\"640\" height=\"400\" viewBox=\"0 0 640 400\" "
+      "xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\">\n<title>Gnuplot</title>"
+      "<circle id='dot' r='1'/><use xlink:href='#dot'/><path clip-path=\"url(#c)\"/></svg>",
+      "fig", "a \"line\"");
+  EXPECT_EQ(svg,
+            "<svg viewBox=\"0 0 640 400\" role=\"img\" aria-label=\"a &quot;line&quot;\">\n"
+            "<circle id='fig-dot' r='1'/><use href='#fig-dot'/><path clip-path=\"url(#fig-c)\"/></svg>");
+  EXPECT_THROW(svg_for_page("no drawing", "fig", ""), std::runtime_error);
+}
+
+TEST(SnapshotView, FarParticlesComeFirstAndHiddenOnesAreLeftOut) {
+  Case c;
+  c.gravity_m_s2 = {0, 0, -9.81};
+  c.water_height_m = 0.5;
+  c.density_kg_m3 = 1000;
+  ParticleSnapshot snapshot;
+  // Along the line of sight: the third lies exactly behind the first.
+  const float s = 0.4f;
+  snapshot.position_m = {{1, 0, 0.5f}, {2, 0.5f, 0.5f}, {1 - 0.38f * s, s, 0.5f - 0.27f * s}};
+  snapshot.pressure_Pa = {0, 4905, 0};
+  snapshot.fluid_count = 3;
+  const auto discs = snapshot_discs(snapshot, c, 0.02, 1.0);
+  ASSERT_EQ(discs.size(), 2u);
+  EXPECT_NEAR(discs[0].x, 2 + 0.38 * 0.5, 1e-6) << "the farther of the two seen";
+  EXPECT_EQ(discs[0].colour, viridis(1.0));
+  EXPECT_EQ(discs[1].colour, viridis(0.0));
+}
+
+TEST(SnapshotView, ColoursRunFromDarkToBright) {
+  EXPECT_EQ(viridis(-1), 0x440154u);
+  EXPECT_EQ(viridis(0), 0x440154u);
+  EXPECT_EQ(viridis(1), 0xFDE725u);
+  EXPECT_EQ(viridis(7), 0xFDE725u);
+}
+
+}  // namespace
+}  // namespace sluice

@@ -1,0 +1,58 @@
+#include "reports/report.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "reports/document.h"
+#include "reports/sections.h"
+#include "validation/manifest.h"
+
+namespace sluice {
+
+namespace {
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out)
+    throw std::runtime_error(
+        fmt::format("{}: cannot write the report (remedy: check permissions and space on the disk)", file.string()));
+}
+
+void write_tables(const ReportDocument& document, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  for (const ReportSection& section : document.sections)
+    for (const Block& block : section.blocks)
+      if (const Table* table = std::get_if<Table>(&block)) {
+        write_file(folder / (table->name + ".csv"), to_csv(*table));
+        write_file(folder / (table->name + ".tex"), to_latex(*table));
+      }
+}
+
+std::string subtitle(const ReportData& data) {
+  return fmt::format("{} {} against the experiment and the published values. {}", data.runs.size(),
+                     data.runs.size() == 1 ? "simulation" : "simulations", data.the_case.reference);
+}
+
+}  // namespace
+
+void write_report(const std::vector<std::filesystem::path>& run_directories, const std::filesystem::path& out,
+                  const ReportOptions& options) {
+  const ReportData data = analyse(run_directories);
+  std::filesystem::create_directories(out);
+  const FigureMaker maker{data, out, options.figures};
+  ReportDocument document;
+  document.title = options.title.empty() ? data.the_case.title : options.title;
+  document.subtitle = subtitle(data);
+  document.made = fmt::format("Made {} by sluice {} ({}).", utc_now(), build_info().version, build_info().commit);
+  document.key_numbers = key_numbers(data);
+  document.sections = report_sections(maker, options.snapshots);
+  write_tables(document, out / "tables");
+  write_file(out / "report.md", to_markdown(document));
+  write_file(out / "index.html", to_html(document, out));
+}
+
+}  // namespace sluice

@@ -1,0 +1,292 @@
+#include "reports/report.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "reports/synthetic_run.h"
+#include "reports/tables.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using synthetic::MadeRun;
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file);
+  EXPECT_TRUE(in) << file;
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+fs::path fresh(const std::string& name) {
+  const fs::path path = fs::path(testing::TempDir()) / ("sluice_report_" + name);
+  fs::remove_all(path);
+  return path;
+}
+
+std::size_t column_of(const Table& table, const std::string& csv_name) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    if (table.columns[i].csv_name == csv_name) return i;
+  ADD_FAILURE() << "no column " << csv_name << " in " << table.name;
+  return 0;
+}
+
+/// The first row whose first cell begins with `start`, and whose second is `second` where one is given.
+const TableRow& row_of(const Table& table, const std::string& start, const std::string& second = "") {
+  for (const TableRow& row : table.rows)
+    if (!row.is_group() && row.cells[0].text.starts_with(start) && (second.empty() || row.cells[1].text == second))
+      return row;
+  ADD_FAILURE() << "no row " << start << " in " << table.name;
+  return table.rows.front();
+}
+
+const TableCell& cell(const Table& table, const std::string& start, const std::string& csv_name,
+                      const std::string& second = "") {
+  return row_of(table, start, second).cells[column_of(table, csv_name)];
+}
+
+TEST(ReportTables, KnownScaleAndShiftGiveKnownNumbers) {
+  const fs::path dir = fresh("known");
+  MadeRun run;
+  run.scale = 1.1;
+  run.second_scale = 0.7;
+  run.shift_s = 0.02;
+  synthetic::write_run(dir, run);
+  const ReportData data = analyse({dir});
+  const Table impulses = impulses_table(data, true);
+  // The shift pushes the last 20 ms of the measured curve out of the window.
+  const MeasuredSeries& p1 = *data.measured_series("P1");
+  const double kept = *impulse(p1, {0, 5.98}) / *impulse(p1, {0, 6});
+  EXPECT_NEAR(*cell(impulses, "R1", "P1_percent", "wall (primary)").value, 100 * (1.1 * kept - 1), 0.02);
+  EXPECT_NEAR(*cell(impulses, "R1", "P1_percent", "kernel").value, 100 * (0.7 * kept - 1), 0.02);
+  const Table paper = paper_impulses_table(data);
+  EXPECT_NEAR(*cell(paper, "R1", "P1_unsigned_deviation_percent", "kernel").value, 100 * (1 - 0.7 * kept), 0.02);
+  EXPECT_NEAR(*cell(paper, "Experiment", "P1_Pa_s").value, 13391.65, 0.5);
+  EXPECT_EQ(cell(paper, "Paper: WCSPH, α = 0.01", "P2_Pa_s").value, 5390);
+  const Table metrics = sensor_metrics_table(data, SensorKind::pressure, false);
+  EXPECT_NEAR(*cell(metrics, "R1", "best_lag_ms").value, 20, 1);
+  EXPECT_NEAR(*cell(metrics, "R1", "arrival_difference_ms").value, 20, 3);
+  const Table waves = sensor_metrics_table(data, SensorKind::wave_height, true);
+  EXPECT_NEAR(*cell(waves, "R1", "peak_deviation_percent", "column (primary)").value, 10, 1.5);
+  EXPECT_NEAR(*cell(waves, "R1", "peak_deviation_percent", "top").value, 21, 1.5);
+}
+
+TEST(ReportTables, AnExternalCodeNeedsThreeLinesAndMissingStaysMissing) {
+  const fs::path dir = fresh("external");
+  synthetic::write_external_run(dir, 0.5);
+  const ReportData data = analyse({dir});
+  const Table paper = paper_impulses_table(data);
+  EXPECT_NEAR(*cell(paper, "R1", "P1_unsigned_deviation_percent", "as delivered").value, 50, 0.3);
+  EXPECT_EQ(cell(paper, "R1", "P2_Pa_s").text, "missing");
+  const Table parameters = parameters_table(data);
+  for (const char* column : {"steps", "wall_time_s", "fluid_particles", "alpha", "peak_memory_bytes"})
+    EXPECT_EQ(cell(parameters, "R1", column).text, "missing") << column;
+  EXPECT_EQ(cell(provenance_table(data), "R1", "commit").text, "missing");
+  EXPECT_EQ(cell(provenance_table(data), "R1", "lost_through_walls").text, "missing") << "never a zero";
+}
+
+TEST(ReportTables, SaysWhatTheKernelProbeSaw) {
+  const fs::path dir = fresh("support");
+  synthetic::write_run(dir, {});
+  const ReportData data = analyse({dir});
+  EXPECT_EQ(*cell(kernel_support_table(data), "R1", "P1_percent").value, 100) << "support 0.8 throughout";
+  const fs::path external = fresh("support_external");
+  synthetic::write_external_run(external, 1);
+  EXPECT_EQ(cell(kernel_support_table(analyse({external})), "R1", "P1_percent").text, "missing");
+}
+
+TEST(ReportTables, AnInterruptedRunIsFlaggedAndHasNoImpulse) {
+  const fs::path dir = fresh("interrupted");
+  MadeRun run;
+  run.t_end_s = 1.5;
+  run.status = "interrupted";
+  synthetic::write_run(dir, run);
+  const ReportData data = analyse({dir});
+  EXPECT_EQ(cell(runs_table(data), "R1", "status").text, "interrupted");
+  EXPECT_NE(cell(runs_table(data), "R1", "remarks").text.find("covers 1.50 s"), std::string::npos);
+  EXPECT_EQ(cell(paper_impulses_table(data), "R1", "P1_Pa_s").text, "missing");
+}
+
+TEST(ReportTables, AShortRunIsScoredOverWhatItCoversInATableOfItsOwn) {
+  const fs::path dir = fresh("short");
+  MadeRun run;
+  run.t_end_s = 5.0;
+  run.scale = 1.2;
+  synthetic::write_run(dir, run);
+  const Table table = early_runs_table(analyse({dir}));
+  EXPECT_NEAR(*cell(table, "R1", "up_to_s").value, 5.0, 1e-9);
+  EXPECT_NEAR(*cell(table, "R1", "P1_impulse_deviation_percent").value, 20, 0.1);
+  EXPECT_GT(*cell(table, "R1", "H2_rmse_over_range_percent").value, 1);
+  const fs::path whole = fresh("not_short");
+  synthetic::write_run(whole, {});
+  EXPECT_TRUE(early_runs_table(analyse({whole})).rows.empty());
+}
+
+TEST(ReportTables, PairsOfRunsThatDifferInTheirWallsAlone) {
+  const fs::path a = fresh("pair_a");
+  const fs::path b = fresh("pair_b");
+  const fs::path c = fresh("pair_c");
+  MadeRun run;
+  synthetic::write_run(a, run);
+  run.walls = "dynamic";
+  run.scale = 0.6;
+  synthetic::write_run(b, run);
+  run.alpha = 0.1;
+  synthetic::write_run(c, run);
+  const ReportData data = analyse({c, b, a});
+  EXPECT_EQ(data.runs[0].record.walls, "extrapolated") << "the report orders runs itself";
+  const Table table = boundary_models_table(data);
+  EXPECT_NEAR(*cell(table, "R1", "mean_unsigned_percent").value, 0, 0.1);
+  EXPECT_NEAR(*cell(table, "R3", "P2_percent", "dynamic").value, -40, 0.1);
+  for (const TableRow& row : table.rows) EXPECT_FALSE(row.cells[0].text.starts_with("R2")) << "α = 0.1 has no partner";
+  EXPECT_NEAR(*cell(table, "Paper", "P1_percent").value, -27.5, 0.1);
+}
+
+TEST(ReportTables, ThreeResolutionsGiveAnOrderOrTheWordsThatThereIsNone) {
+  std::vector<fs::path> dirs;
+  MadeRun run;
+  for (double l0 : {0.04, 0.02, 0.01}) {
+    dirs.push_back(fresh("resolution_" + std::to_string(dirs.size())));
+    run.l0_m = l0;
+    run.scale = 1 + 100 * l0 * l0;  // second order
+    synthetic::write_run(dirs.back(), run);
+  }
+  const Table table = resolution_table(analyse(dirs));
+  const std::string order = cell(table, "P1 impulse", "observed_order").text;
+  EXPECT_TRUE(order.starts_with("order 2.0")) << order;
+  EXPECT_NEAR(*cell(table, "P1 impulse", "l0_40_mm").value, 16, 0.1);
+  run.l0_m = 0.01;
+  run.scale = 1.3;  // finer is worse
+  synthetic::write_run(dirs.back(), run);
+  EXPECT_EQ(cell(resolution_table(analyse(dirs)), "P1 impulse", "observed_order").text, "not in the asymptotic range");
+}
+
+TEST(ReportTables, AcceptanceNamesPassFailAndNotApplicable) {
+  const fs::path a = fresh("accept_a");
+  const fs::path b = fresh("accept_b");
+  const fs::path c = fresh("accept_c");
+  MadeRun made;
+  synthetic::write_run(a, made);
+  made.alpha = 0.001;
+  synthetic::write_run(b, made);
+  made.alpha = 0.01;
+  made.l0_m = 0.015;
+  made.scale = 1.3;
+  synthetic::write_run(c, made);
+  const Table table = acceptance_matrix(analyse({a, b, c}));
+  EXPECT_NE(cell(table, "impulse deviation P1 wall", "R1").text.find("pass"), std::string::npos);
+  EXPECT_EQ(cell(table, "impulse deviation P1 wall", "R2").text, "n/a") << "the row is for α = 0.01";
+  EXPECT_NE(cell(table, "impulse deviation P1 wall", "R3").text.find("FAIL"), std::string::npos);
+  EXPECT_NEAR(*cell(table, "impulse deviation P1 wall", "R3").value, 0.3, 1e-3);
+}
+
+class WholeReport : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const fs::path run = fresh("whole_run");
+    MadeRun made;
+    made.noise_Pa = 300;
+    synthetic::write_run(run, made);
+    synthetic::write_snapshots(run, {0.5, 1.05}, 0.05);
+    const fs::path other = fresh("whole_other");
+    made.walls = "dynamic";
+    made.scale = 0.6;
+    synthetic::write_run(other, made);
+    const fs::path external = fresh("whole_external");
+    synthetic::write_external_run(external, 0.9);
+    out = fresh("whole_out");
+    write_report({run, other, external}, out);
+  }
+  static fs::path out;
+};
+fs::path WholeReport::out;
+
+TEST_F(WholeReport, ThePageMakesNoRequests) {
+  const std::string html = read(out / "index.html");
+  EXPECT_EQ(html.find("<script"), std::string::npos);
+  EXPECT_EQ(html.find("http://"), std::string::npos);
+  EXPECT_EQ(html.find("https://"), std::string::npos);
+  EXPECT_EQ(html.find("@import"), std::string::npos);
+  for (const char* attribute : {" src=\"", " href=\"", " href='"})
+    for (std::size_t at = html.find(attribute); at != std::string::npos; at = html.find(attribute, at + 1)) {
+      const std::string target = html.substr(at + std::string(attribute).size(), 5);
+      EXPECT_TRUE(target.starts_with("#") || target == "data:") << html.substr(at, 60);
+    }
+}
+
+TEST_F(WholeReport, ThePageEscapesWhatOthersWrote) {
+  const std::string html = read(out / "index.html");
+  EXPECT_NE(html.find("interFoam &amp; &lt;friends&gt;"), std::string::npos);
+  EXPECT_EQ(html.find("<friends>"), std::string::npos);
+}
+
+TEST_F(WholeReport, IdentifiersOfThePageAreUnique) {
+  const std::string html = read(out / "index.html");
+  std::map<std::string, int> seen;
+  for (const char quote : {'"', '\''}) {
+    const std::string mark = std::string(" id=") + quote;
+    for (std::size_t at = html.find(mark); at != std::string::npos; at = html.find(mark, at + 1)) {
+      const std::size_t begin = at + mark.size();
+      ++seen[html.substr(begin, html.find(quote, begin) - begin)];
+    }
+  }
+  EXPECT_GT(seen.size(), 20u);
+  for (const auto& [id, count] : seen) EXPECT_EQ(count, 1) << id;
+}
+
+TEST_F(WholeReport, AnchorsOfThePageExist) {
+  const std::string html = read(out / "index.html");
+  for (std::size_t at = html.find("<a href=\"#"); at != std::string::npos; at = html.find("<a href=\"#", at + 1)) {
+    const std::size_t begin = at + 10;
+    const std::string id = html.substr(begin, html.find('"', begin) - begin);
+    EXPECT_NE(html.find("id=\"" + id + "\""), std::string::npos) << id;
+  }
+}
+
+TEST_F(WholeReport, WritesEveryFormat) {
+  for (const char* file :
+       {"report.md", "tables/table1_parameters.csv", "tables/table2_impulses.tex", "tables/acceptance.csv",
+        "figures/pressure_P1.svg", "figures/pressure_P1.gp", "figures/pressure_P1.dat", "figures/impact_P8.svg",
+        "figures/wave_H4.svg", "figures/walls_R1_R2.svg", "figures/snapshots_R1.png"})
+    EXPECT_TRUE(fs::exists(out / file)) << file;
+  const std::string markdown = read(out / "report.md");
+  EXPECT_NE(markdown.find("(figures/wave_H2.svg)"), std::string::npos);
+  EXPECT_NE(markdown.find("FreSCo and ConFlow"), std::string::npos) << "what is not available is said";
+}
+
+TEST_F(WholeReport, NamesNoPathOfTheMachine) {
+  const std::string temporary = fs::path(testing::TempDir()).lexically_normal().parent_path().string();
+  for (const auto& entry : fs::recursive_directory_iterator(out)) {
+    if (!entry.is_regular_file() || entry.path().extension() == ".png") continue;
+    EXPECT_EQ(read(entry.path()).find(temporary), std::string::npos) << entry.path();
+  }
+}
+
+TEST(Report, ErrorsNameWhatIsWrongAndTheRemedy) {
+  EXPECT_THROW(write_report({}, fresh("none")), std::runtime_error);
+  try {
+    write_report({"no/such/run"}, fresh("none"));
+    FAIL() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("no/such/run"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Report, TablesAloneNeedNoGnuplot) {
+  const fs::path run = fresh("tables_run");
+  const fs::path out = fresh("tables_out");
+  synthetic::write_run(run, {});
+  ReportOptions options;
+  options.figures = false;
+  write_report({run}, out, options);
+  EXPECT_FALSE(fs::exists(out / "figures"));
+  EXPECT_TRUE(fs::exists(out / "index.html"));
+}
+
+}  // namespace
+}  // namespace sluice

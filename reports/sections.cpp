@@ -1,0 +1,235 @@
+#include "reports/sections.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "reports/studies.h"
+#include "reports/tables.h"
+#include "reports/text.h"
+
+namespace sluice {
+
+namespace {
+
+Paragraph hint(std::string text) {
+  return {std::move(text), true};
+}
+
+void append(ReportSection& section, const std::vector<Picture>& pictures) {
+  for (const Picture& picture : pictures) section.blocks.push_back(picture);
+}
+
+ReportSection summary_section(const ReportData& data) {
+  ReportSection section{"summary", "Summary", {}};
+  section.blocks.push_back(BulletList{findings(data)});
+  section.blocks.push_back(hint(
+      "Every sentence above is computed from the runs named below. Unless said otherwise a run is judged by its "
+      "primary readings: the sensor models that the case file names for its solver and its walls. “Missing” means that "
+      "a run did not record a value, or did not get far enough to have one."));
+  section.blocks.push_back(runs_table(data));
+  if (!data.measured_problem.empty())
+    section.blocks.push_back(
+        Paragraph{"**No measured series**: " + data.measured_problem + ". Deviations are missing throughout."});
+  return section;
+}
+
+ReportSection parameters_section(const ReportData& data) {
+  ReportSection section{"parameters", "Parameters and cost of each run", {}};
+  section.blocks.push_back(parameters_table(data));
+  section.blocks.push_back(hint(
+      "Equivalent viscosity: ν = α h c₀ / (2 (dim + 2)). A particle-step is one fluid particle moved by one time step; "
+      "the rate counts the time spent stepping. Rates of codes on different machines say little by themselves."));
+  return section;
+}
+
+ReportSection impulses_section(const FigureMaker& maker) {
+  const ReportData& data = maker.data;
+  ReportSection section{"impulses", "Pressure impulses", {}};
+  section.blocks.push_back(
+      hint("The impulse is the integral of pressure over time. It does not hang on the shape of a peak that lasts a "
+           "millisecond, so it is the fairest single number for a load. Each sensor model has its own row: `wall` is "
+           "the mean "
+           "pressure of the wall's particles around the sensor, `kernel` the normalised sum over the fluid one "
+           "smoothing length "
+           "in front of it (the paper's probe)."));
+  section.blocks.push_back(paper_impulses_table(data));
+  append(section, impulse_figures(maker));
+  section.blocks.push_back(impulses_table(data, true));
+  Table values = impulses_table(data, false);
+  values.folded = true;
+  section.blocks.push_back(std::move(values));
+  Table early = early_runs_table(data);
+  if (!early.rows.empty()) section.blocks.push_back(std::move(early));
+  return section;
+}
+
+ReportSection pressures_section(const FigureMaker& maker) {
+  ReportSection section{"pressures", "Pressures on the box", {}};
+  section.blocks.push_back(hint(
+      "Black: the measurement, its mean in each bin; grey: lowest to highest sample in the bin. A weakly compressible "
+      "fluid starts an impact on a flat face with a water-hammer spike that lasts a few milliseconds and whose height "
+      "depends on the sampling. So the long views show a 10 ms running mean of the runs, the close views the raw "
+      "readings. "
+      "Curves are thinned for drawing, keeping the lowest and highest sample of each pixel column."));
+  append(section, series_figures(maker, SensorKind::pressure));
+  section.blocks.push_back(Paragraph{"**The first impact**, raw:"});
+  append(section, impact_figures(maker));
+  section.blocks.push_back(sensor_metrics_table(maker.data, SensorKind::pressure, false));
+  section.blocks.push_back(hint(
+      "Arrival: first crossing of 10 % of the measured peak, in both series. Noise: root mean square of what a 20 ms "
+      "running mean takes away. Inside band: share of time between the lowest and the highest measured sample. Best "
+      "lag: "
+      "shift of best correlation, positive when the simulation is late."));
+  section.blocks.push_back(kernel_support_table(maker.data));
+  Table all = sensor_metrics_table(maker.data, SensorKind::pressure, true);
+  all.folded = true;
+  section.blocks.push_back(std::move(all));
+  section.blocks.push_back(Paragraph{
+      "Curves of the mesh-based codes FreSCo and ConFlow, which the paper shows beside its own, exist as printed "
+      "figures only; no numbers were published, so none are drawn here."});
+  return section;
+}
+
+ReportSection waves_section(const FigureMaker& maker) {
+  ReportSection section{"waves", "Wave heights", {}};
+  section.blocks.push_back(
+      hint("Two ways to read a height: `column` is the first gap counted from the bed upwards, as a wire probe in "
+           "solid water "
+           "sees it; `top` is the highest water on the line, spray included. They differ where the wave overturns."));
+  append(section, series_figures(maker, SensorKind::wave_height));
+  const auto spray = spray_figures(maker);
+  if (!spray.empty()) section.blocks.push_back(Paragraph{"**The same probes with spray** (model `top`):"});
+  append(section, spray);
+  section.blocks.push_back(sensor_metrics_table(maker.data, SensorKind::wave_height, true));
+  return section;
+}
+
+void add_walls_section(std::vector<ReportSection>& sections, const FigureMaker& maker) {
+  if (wall_pairs(maker.data).empty()) return;
+  ReportSection section{"walls", "Boundary models and sensor models", {}};
+  section.blocks.push_back(hint(
+      "Each group holds two runs that differ in their walls alone, and the paper's own numbers at the same α. Down a "
+      "group one sees what the walls do to the error; between the rows of one run, what the probe does. The paper used "
+      "`dynamic` walls and the `kernel` probe at a finer particle distance. The wall's own pressure with `dynamic` "
+      "walls is "
+      "shown as a warning only: its density can rise but never fall below the reference."));
+  section.blocks.push_back(boundary_models_table(maker.data));
+  append(section, boundary_model_figures(maker));
+  sections.push_back(std::move(section));
+}
+
+void add_alpha_section(std::vector<ReportSection>& sections, const FigureMaker& maker) {
+  if (alpha_series(maker.data).empty()) return;
+  ReportSection section{"alpha", "Artificial viscosity", {}};
+  section.blocks.push_back(hint("Runs that differ in α alone are joined by a line. Zero is the measurement."));
+  append(section, alpha_figures(maker));
+  section.blocks.push_back(alpha_table(maker.data));
+  sections.push_back(std::move(section));
+}
+
+void add_resolution_section(std::vector<ReportSection>& sections, const FigureMaker& maker) {
+  ReportSection section{"resolution", "Resolution", {}};
+  const auto series = resolution_series(maker.data);
+  if (series.empty()) {
+    section.blocks.push_back(
+        Paragraph{"No two runs differ in the particle distance alone: nothing can be said about "
+                  "convergence from these runs."});
+    sections.push_back(std::move(section));
+    return;
+  }
+  section.blocks.push_back(
+      hint("An error that shrinks with l0 is a good sign; an order of convergence needs three resolutions whose values "
+           "approach one side monotonically. Where they do not, the words “not in the asymptotic range” stand in its "
+           "place."));
+  append(section, resolution_figures(maker));
+  section.blocks.push_back(resolution_table(maker.data));
+  sections.push_back(std::move(section));
+}
+
+void add_snapshot_section(std::vector<ReportSection>& sections, const FigureMaker& maker) {
+  ReportSection section{"snapshots", "The flow", {}};
+  const auto pictures = snapshot_figures(maker);
+  if (pictures.empty()) {
+    section.blocks.push_back(
+        Paragraph{"No run kept snapshots at the case's times, so there is no picture of the flow "
+                  "(remedy: `sluice run ... --snapshots`)."});
+  } else {
+    section.blocks.push_back(
+        hint("The view is oblique, from the near side wall and above; the water comes from the right. Colour is "
+             "pressure over "
+             "the hydrostatic pressure at the bottom of the still column, so a calm column runs from 0 to 1."));
+    append(section, pictures);
+  }
+  sections.push_back(std::move(section));
+}
+
+ReportSection acceptance_section(const ReportData& data) {
+  ReportSection section{"acceptance", "Acceptance", {}};
+  const AcceptanceCount count = count_acceptance(data);
+  section.blocks.push_back(Paragraph{
+      fmt::format("{} rows passed, {} failed, {} could not be evaluated.", count.passed, count.failed, count.missing)});
+  section.blocks.push_back(hint(
+      "The bounds stand in the case file, set before the runs: a value on the bound passes. Bounds of deviations are "
+      "signed, (simulated − measured) / measured."));
+  section.blocks.push_back(acceptance_matrix(data));
+  return section;
+}
+
+ReportSection cost_section(const FigureMaker& maker) {
+  ReportSection section{"cost", "Error and cost", {}};
+  append(section, cost_figures(maker));
+  section.blocks.push_back(phases_table(maker.data));
+  return section;
+}
+
+void add_warnings(ReportSection& section, const ReportData& data) {
+  BulletList list;
+  for (const AnalysedRun& run : data.runs) {
+    const auto& manifest = run.record.manifest;
+    if (manifest.contains("warnings") && manifest.at("warnings").is_array())
+      for (const auto& warning : manifest.at("warnings"))
+        if (warning.is_string()) list.items.push_back(run.key + ": " + warning.get<std::string>());
+    for (const std::string& problem : run.problems) list.items.push_back(run.key + ": " + problem);
+  }
+  if (list.items.empty()) list.items.push_back("No run recorded a warning.");
+  section.blocks.push_back(Paragraph{"**Warnings**"});
+  section.blocks.push_back(std::move(list));
+}
+
+ReportSection provenance_section(const ReportData& data) {
+  ReportSection section{"provenance", "Provenance", {}};
+  section.blocks.push_back(provenance_table(data));
+  add_warnings(section, data);
+  section.blocks.push_back(fitted_lengths_table(data));
+  section.blocks.push_back(solver_parameters_table(data));
+  section.blocks.push_back(Paragraph{"Experiment: " + data.the_case.reference});
+  if (!data.the_case.published.reference.empty())
+    section.blocks.push_back(Paragraph{"Published values: " + data.the_case.published.reference + " Kept as printed."});
+  section.blocks.push_back(Paragraph{
+      "Every table lies beside this page as CSV (full precision) and LaTeX in `tables/`; every figure as a gnuplot "
+      "script with its data in `figures/`."});
+  return section;
+}
+
+}  // namespace
+
+std::vector<ReportSection> report_sections(const FigureMaker& maker, bool snapshots) {
+  const ReportData& data = maker.data;
+  std::vector<ReportSection> sections;
+  sections.push_back(summary_section(data));
+  sections.push_back(parameters_section(data));
+  sections.push_back(impulses_section(maker));
+  sections.push_back(pressures_section(maker));
+  sections.push_back(waves_section(maker));
+  add_walls_section(sections, maker);
+  add_alpha_section(sections, maker);
+  add_resolution_section(sections, maker);
+  if (snapshots && maker.enabled) add_snapshot_section(sections, maker);
+  sections.push_back(acceptance_section(data));
+  sections.push_back(cost_section(maker));
+  sections.push_back(provenance_section(data));
+  return sections;
+}
+
+}  // namespace sluice

@@ -1,0 +1,134 @@
+#include "reports/studies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/text.h"
+
+namespace sluice {
+
+namespace {
+
+bool same_alpha(const RunRecord& a, const RunRecord& b) {
+  return a.alpha() == b.alpha();
+}
+bool same_end(const RunRecord& a, const RunRecord& b) {
+  return a.number("t_end_s") == b.number("t_end_s");
+}
+
+/// Sorts runs into lists by a criterion of likeness, keeping lists in which `differs` is met at least once.
+template <class Alike>
+std::vector<std::vector<const AnalysedRun*>> group_alike(const ReportData& data, Alike alike) {
+  std::vector<std::vector<const AnalysedRun*>> groups;
+  for (const AnalysedRun& run : data.runs) {
+    auto found = std::find_if(groups.begin(), groups.end(),
+                              [&](const auto& group) { return alike(group.front()->record, run.record); });
+    if (found == groups.end())
+      groups.push_back({&run});
+    else
+      found->push_back(&run);
+  }
+  return groups;
+}
+
+}  // namespace
+
+std::vector<std::pair<const AnalysedRun*, const AnalysedRun*>> wall_pairs(const ReportData& data) {
+  std::vector<std::pair<const AnalysedRun*, const AnalysedRun*>> pairs;
+  for (std::size_t i = 0; i < data.runs.size(); ++i)
+    for (std::size_t j = i + 1; j < data.runs.size(); ++j) {
+      const RunRecord& a = data.runs[i].record;
+      const RunRecord& b = data.runs[j].record;
+      if (a.solver == b.solver && a.l0_m == b.l0_m && same_alpha(a, b) && same_end(a, b) && a.walls != b.walls &&
+          !a.walls.empty() && !b.walls.empty())
+        pairs.emplace_back(&data.runs[i], &data.runs[j]);
+    }
+  return pairs;
+}
+
+std::vector<AlphaSeries> alpha_series(const ReportData& data) {
+  std::vector<AlphaSeries> out;
+  for (auto& runs : group_alike(data, [](const RunRecord&a, const RunRecord&b) {
+         return a.solver == b.solver && a.walls == b.walls && a.l0_m == b.l0_m && same_end(a, b);
+       })) {
+    std::erase_if(runs, [](const AnalysedRun* run) { return !run->record.alpha(); });
+    std::stable_sort(runs.begin(), runs.end(),
+                     [](auto* a, auto* b) { return *a->record.alpha() < *b->record.alpha(); });
+    if (runs.size() < 2 || same_alpha(runs.front()->record, runs.back()->record)) continue;
+    out.push_back({fmt::format("{}, l0 = {:g} mm", runs.front()->group, 1000 * runs.front()->record.l0_m), runs});
+  }
+  return out;
+}
+
+std::vector<ResolutionSeries> resolution_series(const ReportData& data) {
+  std::vector<ResolutionSeries> out;
+  for (auto& runs : group_alike(data, [](const RunRecord&a, const RunRecord&b) {
+         return a.solver == b.solver && a.walls == b.walls && same_alpha(a, b) && same_end(a, b);
+       })) {
+    std::stable_sort(runs.begin(), runs.end(), [](auto* a, auto* b) { return a->record.l0_m > b->record.l0_m; });
+    // Of two runs at one resolution the first stands for it: an order needs one value each.
+    runs.erase(std::unique(runs.begin(), runs.end(), [](auto* a, auto* b) { return a->record.l0_m == b->record.l0_m; }),
+               runs.end());
+    if (runs.size() < 2) continue;
+    const auto alpha = runs.front()->record.alpha();
+    out.push_back({runs.front()->group + (alpha ? fmt::format(", α = {}", shortest(*alpha)) : ""), runs});
+  }
+  return out;
+}
+
+namespace {
+
+template <class Measure>
+ResolutionQuantity quantity(const std::string& name, int decimals, const ResolutionSeries& series,
+                            const std::string& sensor, Measure measure) {
+  ResolutionQuantity out{name, decimals, {}};
+  for (const AnalysedRun* run : series.runs) {
+    const SensorReading* reading = run->primary(sensor);
+    if (reading == nullptr) continue;
+    const std::pair<std::optional<double>, std::optional<double>> m = measure(reading->comparison);
+    if (m.first && m.second) out.points.push_back({run->record.l0_m, *m.first, *m.second});
+  }
+  return out;
+}
+
+std::optional<double> times(std::optional<double> value, double factor) {
+  if (value) *value *= factor;
+  return value;
+}
+
+}  // namespace
+
+std::vector<ResolutionQuantity> resolution_quantities(const ReportData& data, const ResolutionSeries& series) {
+  std::vector<ResolutionQuantity> out;
+  for (const std::string& sensor : data.headline_sensors())
+    out.push_back(quantity(sensor + " impulse [%]", 1, series, sensor, [](const Comparison& c) {
+      return std::pair(c.impulse.simulated, times(c.impulse.deviation(), 100));
+    }));
+  if (!data.headline_sensors().empty()) {
+    const std::string first = data.headline_sensors().front();
+    out.push_back(quantity(first + " arrival [ms]", 0, series, first, [](const Comparison& c) {
+      return std::pair(c.arrival_s.simulated, times(c.arrival_s.difference(), 1000));
+    }));
+  }
+  for (const std::string& sensor : data.sensors(SensorKind::wave_height))
+    out.push_back(quantity(sensor + " RMSE / range [%]", 1, series, sensor,
+                           [](const Comparison& c) { return std::pair(c.rmse, times(c.rmse_over_range, 100)); }));
+  std::erase_if(out, [](const ResolutionQuantity& q) { return q.points.empty(); });
+  return out;
+}
+
+std::optional<double> published_deviation(const ReportData& data, const std::string& sensor, const std::string& source,
+                                          std::optional<double> alpha) {
+  std::optional<double> value;
+  std::optional<double> experiment;
+  for (const PublishedImpulse& row : data.the_case.published.impulses) {
+    if (row.sensor != sensor) continue;
+    if (row.source == "experiment") experiment = row.impulse_Pa_s;
+    if (row.source == source && row.alpha == alpha) value = row.impulse_Pa_s;
+  }
+  return relative_deviation(value, experiment);
+}
+
+}  // namespace sluice

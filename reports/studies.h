@@ -1,0 +1,47 @@
+// Which runs differ in one thing only: in their walls, in alpha, or in the particle distance.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/analysis.h"
+
+namespace sluice {
+
+/// Pairs of runs alike in solver, l0, alpha and end, with different wall models.
+std::vector<std::pair<const AnalysedRun*, const AnalysedRun*>> wall_pairs(const ReportData& data);
+
+/// Runs alike in all but alpha, at least two of them, smallest alpha first.
+struct AlphaSeries {
+  std::string title;  ///< "WCSPH, extrapolated walls, l0 = 20 mm"
+  std::vector<const AnalysedRun*> runs;
+};
+std::vector<AlphaSeries> alpha_series(const ReportData& data);
+
+/// Runs alike in all but l0, at least two of them, coarsest first.
+struct ResolutionSeries {
+  std::string title;  ///< "WCSPH, extrapolated walls, α = 0.01"
+  std::vector<const AnalysedRun*> runs;
+};
+std::vector<ResolutionSeries> resolution_series(const ReportData& data);
+
+struct ResolutionPoint {
+  double l0_m = 0;
+  double value = 0;  ///< of the simulated quantity itself, whose convergence is looked at
+  double error = 0;  ///< as shown, in the quantity's unit
+};
+struct ResolutionQuantity {
+  std::string name;  ///< with the unit of the error
+  int decimals = 1;
+  std::vector<ResolutionPoint> points;  ///< coarsest first; runs without the quantity are left out
+};
+/// Impulses of the headline sensors, arrival at the first of them, and RMSE of every wave probe.
+std::vector<ResolutionQuantity> resolution_quantities(const ReportData& data, const ResolutionSeries& series);
+
+/// (printed - printed experiment) / printed experiment of the paper's impulse, signed.
+std::optional<double> published_deviation(const ReportData& data, const std::string& sensor, const std::string& source,
+                                          std::optional<double> alpha);
+
+}  // namespace sluice

@@ -1,0 +1,184 @@
+// Tables across runs: wall models and sensor models, artificial viscosity, resolution.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/studies.h"
+#include "reports/tables.h"
+#include "reports/text.h"
+#include "validation/convergence.h"
+
+namespace sluice {
+
+namespace {
+
+std::optional<double> percent(std::optional<double> share) {
+  if (share) *share *= 100;
+  return share;
+}
+
+std::optional<double> impulse_deviation(const SensorReading* reading) {
+  return reading == nullptr ? std::nullopt : reading->comparison.impulse.deviation();
+}
+
+void add_published_deviations(Table& table, const ReportData& data, double alpha) {
+  const std::vector<std::string> sensors = data.headline_sensors();
+  std::vector<TableCell> cells = {word("Paper: WCSPH"), word("dynamic"), word("kernel"), typed(alpha)};
+  double sum = 0;
+  for (const std::string& sensor : sensors) {
+    const auto deviation = published_deviation(data, sensor, "wcsph", alpha);
+    if (!deviation) return;
+    sum += std::abs(*deviation);
+    cells.push_back(signed_number(100 * *deviation, 1));
+  }
+  cells.push_back(number(100 * sum / static_cast<double>(sensors.size()), 1));
+  table.add(std::move(cells));
+}
+
+}  // namespace
+
+Table boundary_models_table(const ReportData& data) {
+  Table table;
+  table.name = "boundary_and_sensor_models";
+  table.caption = "Signed deviation of the impulse by wall model and sensor model, runs alike in all else [%]";
+  table.columns = {{"Run", "run", false}, {"Walls", "walls", false}, {"Sensor model", "model", false}, {"α", "alpha"}};
+  const std::vector<std::string> sensors = data.headline_sensors();
+  for (const std::string& sensor : sensors) table.columns.push_back({sensor + " [%]", sensor + "_percent"});
+  table.columns.push_back({"Mean of |…| [%]", "mean_unsigned_percent"});
+  for (const auto& [first, second] : wall_pairs(data)) {
+    table.add_group(fmt::format("{} against {}", first->label, second->key));
+    for (const AnalysedRun* run : {first, second})
+      for (const SensorReading* reading : run->of(sensors.front())) {
+        std::vector<TableCell> cells = {word(run->label), word(run->record.walls), word(reading->remarked_model()),
+                                        typed(run->record.alpha())};
+        for (const std::string& sensor : sensors)
+          cells.push_back(signed_number(percent(impulse_deviation(run->find(sensor, reading->model))), 1));
+        cells.push_back(number(percent(mean_impulse_error(data, *run, reading->model)), 1));
+        table.add(std::move(cells));
+      }
+    if (first->record.alpha()) add_published_deviations(table, data, *first->record.alpha());
+  }
+  return table;
+}
+
+Table alpha_table(const ReportData& data) {
+  Table table;
+  table.name = "alpha";
+  table.caption = "Signed deviation of the impulse against the artificial viscosity, primary readings [%]";
+  table.columns = {{"Series", "series", false}, {"α", "alpha"}};
+  const std::vector<std::string> sensors = data.headline_sensors();
+  for (const std::string& sensor : sensors) table.columns.push_back({sensor + " [%]", sensor + "_percent"});
+  table.columns.push_back({"Mean of |…| [%]", "mean_unsigned_percent"});
+  for (const AlphaSeries& series : alpha_series(data)) {
+    table.add_group(series.title);
+    for (const AnalysedRun* run : series.runs) {
+      std::vector<TableCell> cells = {word(run->label), typed(run->record.alpha())};
+      for (const std::string& sensor : sensors)
+        cells.push_back(signed_number(percent(impulse_deviation(run->primary(sensor))), 1));
+      cells.push_back(number(percent(mean_impulse_error(data, *run)), 1));
+      table.add(std::move(cells));
+    }
+  }
+  return table;
+}
+
+namespace {
+
+TableCell convergence_cell(const std::vector<ResolutionPoint>& points) {
+  if (points.size() < 3) return not_applicable("needs three resolutions");
+  std::vector<ResolvedValue> results;
+  for (const ResolutionPoint& point : points) results.push_back({point.l0_m, point.value});
+  const GridConvergence c = grid_convergence(std::move(results));
+  if (!c.asymptotic || !c.order) return word(std::string(c.verdict()));
+  std::string text = "order " + fixed(*c.order, 1);
+  if (c.index) text += fmt::format(", grid convergence index {} %", fixed(100 * *c.index, 1));
+  return word(text);
+}
+
+}  // namespace
+
+Table resolution_table(const ReportData& data) {
+  Table table;
+  table.name = "resolution";
+  table.caption = "Errors against the particle distance, primary readings";
+  table.columns = {{"Quantity", "quantity", false}};
+  std::vector<double> distances;
+  for (const ResolutionSeries& series : resolution_series(data))
+    for (const AnalysedRun* run : series.runs)
+      if (std::find(distances.begin(), distances.end(), run->record.l0_m) == distances.end())
+        distances.push_back(run->record.l0_m);
+  std::sort(distances.rbegin(), distances.rend());
+  for (double l0 : distances)
+    table.columns.push_back({fmt::format("l0 = {:g} mm", 1000 * l0), fmt::format("l0_{:g}_mm", 1000 * l0)});
+  table.columns.push_back({"Observed order of the value", "observed_order", false});
+  for (const ResolutionSeries& series : resolution_series(data)) {
+    table.add_group(series.title);
+    for (const ResolutionQuantity& quantity : resolution_quantities(data, series)) {
+      std::vector<TableCell> cells = {word(quantity.name)};
+      for (double l0 : distances) {
+        const auto found = std::find_if(quantity.points.begin(), quantity.points.end(),
+                                        [&](const ResolutionPoint& p) { return p.l0_m == l0; });
+        cells.push_back(found == quantity.points.end() ? missing() : signed_number(found->error, quantity.decimals));
+      }
+      cells.push_back(convergence_cell(quantity.points));
+      table.add(std::move(cells));
+    }
+  }
+  return table;
+}
+
+namespace {
+
+/// The part of the window that the run's samples reach; nullopt when it reaches the end or hardly begins.
+std::optional<Window> covered_part(const ReportData& data, const AnalysedRun& run) {
+  const std::vector<double>& t = run.record.probes.times_s();
+  constexpr double least_s = 0.5;
+  const double interval_s = 2 / data.the_case.output_rate_Hz;
+  if (t.size() < 2 || t.back() >= data.window.end_s - interval_s || t.back() < data.window.begin_s + least_s)
+    return std::nullopt;
+  return Window{data.window.begin_s, t.back()};
+}
+
+std::optional<double> early_metric(const ReportData& data, const AnalysedRun& run, const std::string& sensor,
+                                   Window window) {
+  const SensorReading* reading = run.primary(sensor);
+  const MeasuredSeries* measured = data.measured_series(sensor);
+  if (reading == nullptr || measured == nullptr) return std::nullopt;
+  if (reading->kind == SensorKind::pressure)
+    return relative_deviation(impulse(reading->series, window), impulse(*measured, window));
+  const auto error = rmse(reading->series, *measured, window);
+  const auto spread = range(*measured, data.window);
+  return error && spread && *spread > 0 ? std::optional<double>(*error / *spread) : std::nullopt;
+}
+
+}  // namespace
+
+Table early_runs_table(const ReportData& data) {
+  Table table;
+  table.name = "early_runs";
+  table.caption = "Runs that end before the window does, scored over what they cover (primary readings)";
+  table.columns = {{"Run", "run", false}, {"Up to [s]", "up_to_s"}};
+  std::vector<std::string> sensors = data.headline_sensors();
+  for (const std::string& sensor : sensors)
+    table.columns.push_back({sensor + " impulse [%]", sensor + "_impulse_deviation_percent"});
+  for (const std::string& sensor : data.sensors(SensorKind::wave_height)) {
+    sensors.push_back(sensor);
+    table.columns.push_back({sensor + " RMSE / range [%]", sensor + "_rmse_over_range_percent"});
+  }
+  for (const AnalysedRun& run : data.runs) {
+    const auto window = covered_part(data, run);
+    if (!window) continue;
+    std::vector<TableCell> cells = {word(run.label), number(window->end_s, 2)};
+    for (const std::string& sensor : sensors)
+      cells.push_back(signed_number(percent(early_metric(data, run, sensor, *window)), 1));
+    table.add(std::move(cells));
+  }
+  table.notes.push_back(
+      "Impulses: signed deviation from the measured impulse over the same time. These numbers enter no ranking, no "
+      "figure "
+      "and no acceptance row: a run that stopped early has not shown what comes after.");
+  return table;
+}
+
+}  // namespace sluice

@@ -1,0 +1,177 @@
+#include "solvers/cell_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "solvers/lanes.h"
+
+namespace sluice {
+
+RowGeometry::RowGeometry(const Box& domain_m, double radius, double slack, double slice)
+    : domain(domain_m), radius_m(radius), slack_m(slack), edge_m(radius + 2 * slack), slice_m(slice) {
+  const auto cells = [](double length, double width) { return std::floor(length / width) + 1; };
+  const double x = cells(domain.upper.x - domain.lower.x, slice_m);
+  const double y = cells(domain.upper.y - domain.lower.y, edge_m) + 2;
+  const double z = cells(domain.upper.z - domain.lower.z, edge_m) + 2;
+  if (!(x * y * z < 2e9)) {
+    throw std::invalid_argument(
+        fmt::format("the domain has {:.3g} search slices, too many to index: choose a larger l0", x * y * z));
+  }
+  nx = static_cast<std::int32_t>(x);
+  ny = static_cast<std::int32_t>(y);
+  nz = static_cast<std::int32_t>(z);
+}
+
+RowIndex::RowIndex(const RowGeometry& geometry)
+    : geometry_(geometry), stencil_(stencil(geometry)), row_start_(static_cast<std::size_t>(geometry.rows()) + 1) {
+  start_.resize(at(geometry.rows(), 0));
+}
+
+void RowIndex::sort(std::span<const double> x, std::span<const double> y, std::span<const double> z,
+                    std::span<const std::uint8_t> leaves, int threads) {
+  sort_into_rows(y, z, leaves, threads);
+  order_.resize(by_row_.size());
+#pragma omp parallel num_threads(threads)
+  {
+    std::vector<std::int32_t> scratch;
+#pragma omp for schedule(dynamic, 8)
+    for (std::int32_t r = 0; r < geometry_.rows(); ++r) sort_row_into_slices(r, x, scratch);
+  }
+}
+
+/// Counting sort by row: every block of particles counts, then knows where each of its rows begins, then places.
+void RowIndex::sort_into_rows(std::span<const double> y, std::span<const double> z,
+                              std::span<const std::uint8_t> leaves, int threads) {
+  const auto rows = static_cast<std::size_t>(geometry_.rows());
+  const auto n = static_cast<std::int64_t>(y.size());
+  const std::int64_t blocks = threads;
+  std::vector<std::int32_t> counts(rows * static_cast<std::size_t>(blocks), 0);
+  const auto for_block = [&](std::int64_t b, auto&& visit) {
+    for (std::int64_t i = n * b / blocks; i < n * (b + 1) / blocks; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (leaves.empty() || leaves[k] == 0) visit(i, static_cast<std::size_t>(geometry_.row(y[k], z[k])));
+    }
+  };
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::int64_t b = 0; b < blocks; ++b) {
+    std::int32_t* count = &counts[static_cast<std::size_t>(b) * rows];
+    for_block(b, [&](std::int64_t, std::size_t row) { ++count[row]; });
+  }
+  std::int32_t total = 0;
+  for (std::size_t r = 0; r < rows; ++r) {
+    row_start_[r] = total;
+    for (std::int64_t b = 0; b < blocks; ++b) {
+      std::int32_t& c = counts[static_cast<std::size_t>(b) * rows + r];
+      total += std::exchange(c, total);
+    }
+  }
+  row_start_[rows] = total;
+  by_row_.resize(static_cast<std::size_t>(total));
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::int64_t b = 0; b < blocks; ++b) {
+    std::int32_t* next = &counts[static_cast<std::size_t>(b) * rows];
+    for_block(b, [&](std::int64_t i, std::size_t row) {
+      by_row_[static_cast<std::size_t>(next[row]++)] = static_cast<std::int32_t>(i);
+    });
+  }
+}
+
+void RowIndex::sort_row_into_slices(std::int32_t row, std::span<const double> x, std::vector<std::int32_t>& scratch) {
+  const auto first = static_cast<std::size_t>(row_start_[static_cast<std::size_t>(row)]);
+  const auto last = static_cast<std::size_t>(row_start_[static_cast<std::size_t>(row) + 1]);
+  const auto nx = static_cast<std::size_t>(geometry_.nx);
+  std::int32_t* start = &start_[at(row, 0)];
+  std::fill(start, start + nx + 1, static_cast<std::int32_t>(first));
+  if (first == last) return;
+  scratch.assign(nx, 0);
+  const auto slice = [&](std::size_t k) {
+    return static_cast<std::size_t>(geometry_.slice(x[static_cast<std::size_t>(by_row_[k])]));
+  };
+  for (std::size_t k = first; k < last; ++k) ++scratch[slice(k)];
+  for (std::size_t s = 0; s < nx; ++s) {
+    start[s + 1] = start[s] + scratch[s];
+    scratch[s] = start[s];
+  }
+  for (std::size_t k = first; k < last; ++k) order_[static_cast<std::size_t>(scratch[slice(k)]++)] = by_row_[k];
+}
+
+RowIndex::Stencil RowIndex::stencil(const RowGeometry& g) {
+  Stencil s;
+  s.y_offset.fill(2 * static_cast<float>(g.edge_m));
+  const auto edge = static_cast<float>(g.edge_m);
+  for (std::size_t k = 0; k < 9; ++k) {
+    const auto y = static_cast<std::int32_t>(k % 3) - 1;
+    const auto z = static_cast<std::int32_t>(k / 3) - 1;
+    s.y_offset[k] = y > 0 ? edge : 0;
+    s.z_offset[k] = z > 0 ? edge : 0;
+    s.y_slope[k] = static_cast<float>(-y);
+    s.z_slope[k] = static_cast<float>(-z);
+    s.base[k] = (z * g.ny + y) * (g.nx + 1);
+  }
+  return s;
+}
+
+/// All nine rows at once: the chord that the kernel's sphere cuts out of each gives the slices to visit.
+Runs RowIndex::neighbours(const Vec3d& point, std::int32_t row, double travel_m) const {
+  using Integers = Lanes<FloatPack>::Integers;
+  const RowGeometry& g = geometry_;
+  const std::int32_t jz = row / g.ny;
+  const std::int32_t jy = row - jz * g.ny;
+  const auto y = static_cast<float>(point.y - g.domain.lower.y - (jy - 1) * g.edge_m);
+  const auto z = static_cast<float>(point.z - g.domain.lower.z - (jz - 1) * g.edge_m);
+  const auto x = static_cast<float>((point.x - g.domain.lower.x) / g.slice_m);
+  const auto travel = static_cast<float>(travel_m);
+  const auto per_slice = static_cast<float>(1.0 / g.slice_m);
+  const auto radius2 = static_cast<float>(g.radius_m * g.radius_m);
+  const float rounding_slices = 0.001F;
+  std::array<std::int32_t, Stencil::lanes> low;
+  std::array<std::int32_t, Stencil::lanes> high;
+  for (std::size_t k = 0; k < Stencil::lanes; k += FloatPack::size()) {
+    const auto load = [&](const auto& values) { return FloatPack(&values[k], stdx::element_aligned); };
+    const FloatPack dy = larger(load(stencil_.y_offset) + load(stencil_.y_slope) * y - travel, FloatPack(0));
+    const FloatPack dz = larger(load(stencil_.z_offset) + load(stencil_.z_slope) * z - travel, FloatPack(0));
+    const FloatPack chord2 = radius2 - dy * dy - dz * dz;
+    const FloatPack reach =
+        square_root(larger(chord2, FloatPack(0))) * per_slice + (travel * per_slice + rounding_slices);
+    const Integers base(&stencil_.base[k], stdx::element_aligned);
+    const FloatPack first = larger(x - reach, FloatPack(0));
+    FloatPack last = smaller(x + reach, FloatPack(static_cast<float>(g.nx - 1))) + 1.0F;
+    stdx::where(chord2 <= 0.0F, last) = first;
+    (base + stdx::static_simd_cast<Integers>(first)).copy_to(&low[k], stdx::element_aligned);
+    (base + stdx::static_simd_cast<Integers>(last)).copy_to(&high[k], stdx::element_aligned);
+  }
+  const std::int32_t* const own = &start_[at(row, 0)];
+  Runs runs;
+  for (std::size_t r = 0; r < runs.size(); ++r) runs[r] = {own[low[r]], own[high[r]]};
+  return runs;
+}
+
+bool RowIndex::any_near(const Vec3d& point) const {
+  const RowGeometry& g = geometry_;
+  const std::int32_t jy = g.row_y(point.y);
+  const std::int32_t jz = g.row_z(point.z);
+  const double x0 = point.x - g.domain.lower.x;
+  const double reach = g.radius_m + g.slack_m;
+  const auto low = std::max(0, static_cast<std::int32_t>((x0 - reach) / g.slice_m));
+  const auto high = std::min(g.nx - 1, static_cast<std::int32_t>((x0 + reach) / g.slice_m));
+  for (std::int32_t z = jz - 1; z <= jz + 1; ++z) {
+    for (std::int32_t y = jy - 1; y <= jy + 1; ++y) {
+      const std::int32_t row = z * g.ny + y;
+      if (start_[at(row, low)] < start_[at(row, high + 1)]) return true;
+    }
+  }
+  return false;
+}
+
+std::int64_t RowIndex::memory_bytes() const {
+  const auto bytes = [](const std::vector<std::int32_t>& v) {
+    return static_cast<std::int64_t>(v.capacity() * sizeof(std::int32_t));
+  };
+  return bytes(order_) + bytes(by_row_) + bytes(row_start_) + bytes(start_);
+}
+
+}  // namespace sluice

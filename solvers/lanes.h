@@ -1,0 +1,162 @@
+// One pair at a time in double precision, or a vector of pairs in single precision: the two number types for which
+// every pair term of the solvers is instantiated, behind the same few operations.
+//
+// Positions are kept in double precision. The vector path works on a copy in 32-bit fixed point (see FixedPoint): its
+// differences are exact integers wherever in the domain a pair lies, so that nothing is lost far from the origin.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <experimental/simd>
+
+namespace sluice {
+
+namespace stdx = std::experimental;
+
+/// The fast path's pack: as many single-precision lanes as the machine's registers hold.
+using FloatPack = stdx::native_simd<float>;
+
+template <class Pack>
+struct Lanes;
+
+/// Reference path: one lane of double precision.
+template <>
+struct Lanes<double> {
+  using Real = double;        ///< type of stored particle values
+  using Coordinate = double;  ///< type of stored pair coordinates
+  static constexpr int width = 1;
+
+  static double load(const double* p) { return *p; }
+  static double difference(const double* to, double from) { return *to - from; }
+  static double first(int) { return 1; }
+  static void add(double* p, double v, int) { *p += v; }
+};
+
+/// Fast path: a pack of single precision.
+template <>
+struct Lanes<FloatPack> {
+  using Real = float;
+  using Coordinate = std::int32_t;
+  using Integers = stdx::rebind_simd_t<std::int32_t, FloatPack>;
+  using Unsigned = stdx::rebind_simd_t<std::uint32_t, FloatPack>;
+  static constexpr int width = FloatPack::size();
+
+  [[gnu::always_inline]] static FloatPack load(const float* p) { return FloatPack(p, stdx::element_aligned); }
+
+  /// to - from in quanta for a whole pack; the integer difference is exact, its conversion rounds to single precision.
+  [[gnu::always_inline]] static FloatPack difference(const std::int32_t* to, std::int32_t from) {
+    // Unsigned, since lanes past a run's end may lie anywhere in the domain and wrap around; they are masked
+    // afterwards.
+    const Unsigned wrapped = Unsigned(reinterpret_cast<const std::uint32_t*>(to), stdx::element_aligned) -
+                             Unsigned(static_cast<std::uint32_t>(from));
+    return stdx::static_simd_cast<FloatPack>(stdx::static_simd_cast<Integers>(wrapped));
+  }
+
+  /// One in the first n lanes (0 < n <= width), zero in the others: a window that slides over ones and zeros.
+  [[gnu::always_inline]] static FloatPack first(int n) {
+    return load(&ones_then_zeros[static_cast<std::size_t>(width - n)]);
+  }
+
+  /// Adds the first n lanes to memory; the memory behind them is not touched.
+  [[gnu::always_inline]] static void add(float* p, FloatPack v, int n) {
+    const FloatPack sum = load(p) + v;
+    stdx::where(first(n) > FloatPack{}, sum).copy_to(p, stdx::element_aligned);
+  }
+
+ private:
+  static constexpr std::array<float, 2 * width> ones_then_zeros = [] {
+    std::array<float, 2 * width> a{};
+    for (std::size_t k = 0; k < width; ++k) a[k] = 1;
+    return a;
+  }();
+};
+
+// The same names for one lane and for a pack.
+inline double square_root(double a) {
+  return std::sqrt(a);
+}
+inline double magnitude(double a) {
+  return std::abs(a);
+}
+inline double larger(double a, double b) {
+  return std::max(a, b);
+}
+inline double smaller(double a, double b) {
+  return std::min(a, b);
+}
+/// Whether a > b in any lane where `where` is positive.
+inline bool any_larger(double a, double b, double where) {
+  return a > b && where > 0;
+}
+/// a where `where` is positive, else zero.
+inline double where_positive(double where, double a) {
+  return where > 0 ? a : 0;
+}
+inline double lane_sum(double a) {
+  return a;
+}
+inline double lane_max(double a) {
+  return a;
+}
+
+[[gnu::always_inline]] inline FloatPack square_root(FloatPack a) {
+  return stdx::sqrt(a);
+}
+[[gnu::always_inline]] inline FloatPack magnitude(FloatPack a) {
+  return stdx::abs(a);
+}
+[[gnu::always_inline]] inline FloatPack larger(FloatPack a, FloatPack b) {
+  return stdx::max(a, b);
+}
+[[gnu::always_inline]] inline FloatPack smaller(FloatPack a, FloatPack b) {
+  return stdx::min(a, b);
+}
+[[gnu::always_inline]] inline bool any_larger(FloatPack a, FloatPack b, FloatPack where) {
+  return stdx::any_of(a > b && where > FloatPack{});
+}
+[[gnu::always_inline]] inline FloatPack where_positive(FloatPack where, FloatPack a) {
+  FloatPack r{};
+  stdx::where(where > r, r) = a;
+  return r;
+}
+inline float lane_sum(FloatPack a) {
+  return stdx::reduce(a);
+}
+inline float lane_max(FloatPack a) {
+  return stdx::hmax(a);
+}
+
+/// Maps metres to the 32-bit fixed point of the fast path (or leaves them as they are in the reference path).
+/// The quantum is the domain's longest edge over 2^32 - 2^20, so pair differences are exact to 1e-9 m in domains up
+/// to 4.2 m.
+template <class Coordinate>
+class FixedPoint;
+
+template <>
+class FixedPoint<double> {
+ public:
+  FixedPoint(double, double) {}
+  double encode(double x_m) const { return x_m; }
+  static double quantum_m(double) { return 1.0; }
+};
+
+template <>
+class FixedPoint<std::int32_t> {
+ public:
+  /// Covers lower .. lower + extent [m].
+  FixedPoint(double lower_m, double extent_m)
+      : centre_m_(lower_m + 0.5 * extent_m), quanta_per_m_(1.0 / quantum_m(extent_m)) {}
+  std::int32_t encode(double x_m) const {
+    return static_cast<std::int32_t>(std::lrint((x_m - centre_m_) * quanta_per_m_));
+  }
+  /// The unit of the coordinates [m] for a domain of this extent.
+  static double quantum_m(double extent_m) { return extent_m / (4294967296.0 - 1048576.0); }
+
+ private:
+  double centre_m_;
+  double quanta_per_m_;
+};
+
+}  // namespace sluice

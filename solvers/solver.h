@@ -1,0 +1,69 @@
+// What every solver offers to a harness: time steps, what its sensors see, what it lost, what each phase cost.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "solvers/vec3.h"
+
+namespace sluice {
+
+/// Fluid particles that left. Over the open top is physical; through a wall is an error of the method.
+struct LostParticles {
+  std::int64_t over_top = 0;
+  std::int64_t through_walls = 0;
+};
+
+/// What a sensor read, and how much fluid it had to read from.
+struct PressureReading {
+  double pressure_Pa = 0;
+  double support = 0;  ///< share of the kernel's (or the patch's) support that was filled, 0..1 or a little over
+};
+
+/// A copy of the particles for pictures and for tests, fluid first.
+struct ParticleSnapshot {
+  double time_s = 0;
+  std::size_t fluid_count = 0;
+  std::vector<Vec3<float>> position_m;
+  std::vector<Vec3<float>> velocity_m_s;
+  std::vector<float> pressure_Pa;
+  std::vector<float> density_kg_m3;
+  std::vector<std::int32_t> id;  ///< stays with a particle for the whole run
+};
+
+/// Seconds of wall time by the name of the phase.
+using PhaseTimes = std::map<std::string, double>;
+
+class Solver {
+ public:
+  virtual ~Solver() = default;
+
+  /// One time step of the solver's own choice. Returns its length [s].
+  virtual double step() = 0;
+
+  virtual double time_s() const = 0;
+  virtual std::int64_t steps() const = 0;
+  virtual std::int64_t fluid_count() const = 0;
+  virtual std::int64_t solid_count() const = 0;
+  virtual LostParticles lost() const = 0;
+  virtual PhaseTimes phases() const = 0;
+  /// Bytes held in the solver's arrays.
+  virtual std::int64_t memory_bytes() const = 0;
+  /// Whole-run facts for the manifest that only this solver knows, name to value (such as "c0_m_s").
+  virtual std::map<std::string, double> facts() const = 0;
+
+  /// Kernel-weighted mean pressure of the fluid at a point (the paper's normalised sum).
+  virtual PressureReading kernel_pressure(const Vec3d& point_m) const = 0;
+  /// Mean pressure of the wall particles of the first layer within one smoothing length of a point on a wall.
+  virtual PressureReading wall_pressure(const Vec3d& point_m) const = 0;
+  /// Smoothed volume fraction of fluid at a point: 1 inside, 0 outside, one half at a plane free surface.
+  virtual double volume_fraction(const Vec3d& point_m) const = 0;
+  /// The smoothing length h [m] (MPS: half the effective radius): the scale of offsets from walls.
+  virtual double smoothing_length_m() const = 0;
+
+  virtual ParticleSnapshot snapshot() const = 0;
+};
+
+}  // namespace sluice

@@ -1,0 +1,107 @@
+// What sensors see of a WCSPH run, and snapshots of it. All sums here are scalar and in double precision.
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/wcsph/equation_of_state.h"
+#include "solvers/wcsph/kernel.h"
+#include "solvers/wcsph/wcsph_solver.h"
+
+namespace sluice::wcsph {
+namespace {
+
+/// Calls visit(j, distance) for every particle within the kernel's radius of a point.
+template <class Pack, class Visit>
+void for_each_near(const Sorted<Pack>& sorted, const Vec3d& point, Visit&& visit) {
+  const double radius2 = sorted.index.geometry().radius_m * sorted.index.geometry().radius_m;
+  for (const Run& run : sorted.index.neighbours(point, sorted.travel_m)) {
+    for (auto j = static_cast<std::size_t>(run.begin); j < static_cast<std::size_t>(run.end); ++j) {
+      const Vec3d d = sorted.particles.position.template at<double>(j) - point;
+      const double distance2 = dot(d, d);
+      if (distance2 < radius2) visit(j, std::sqrt(distance2));
+    }
+  }
+}
+
+bool inside(const Box& b, const Vec3d& p) {
+  return p.x >= b.lower.x && p.x <= b.upper.x && p.y >= b.lower.y && p.y <= b.upper.y && p.z >= b.lower.z &&
+         p.z <= b.upper.z;
+}
+
+}  // namespace
+
+/// P_a = sum_b P_b W_ab / sum_b W_ab over fluid particles b   [Pa]   Eq. (33)
+template <class Pack>
+PressureReading WcsphSolver<Pack>::kernel_pressure(const Vec3d& point_m) const {
+  if (!inside(tank_.domain(), point_m)) return {};
+  const double h = parameters_.smoothing_length_m();
+  const double normalisation = Wendland{h}.normalisation();
+  double weights = 0;
+  double pressures = 0;
+  double filled = 0;
+  for_each_near(sorted_fluid(), point_m, [&](std::size_t j, double distance) {
+    const double W = wendland_weight(wendland_taper(distance, 0.5 / h), normalisation);
+    weights += W;
+    pressures += W * static_cast<double>(fluid_.pressure[j]);
+    filled += W * static_cast<double>(fluid_.volume[j]);
+  });
+  return {weights > 0 ? pressures / weights : 0.0, filled};
+}
+
+template <class Pack>
+double WcsphSolver<Pack>::volume_fraction(const Vec3d& point_m) const {
+  return kernel_pressure(point_m).support;
+}
+
+/// Mean over the first layer of the face on which the point lies, within h of the point.
+template <class Pack>
+PressureReading WcsphSolver<Pack>::wall_pressure(const Vec3d& point_m) const {
+  if (!inside(tank_.domain(), point_m)) return {};
+  const double h = parameters_.smoothing_length_m();
+  const Tank::Face face = tank_.nearest_face(point_m);
+  double sum = 0;
+  int count = 0;
+  for_each_near(sorted_walls(), point_m, [&](std::size_t j, double distance) {
+    const Vec3d p = walls_.position.template at<double>(j);
+    const double from_face = std::abs((face.axis == 0 ? p.x : face.axis == 1 ? p.y : p.z) - face.coordinate_m);
+    if (wall_layer_[j] != 0 || distance > h || from_face > 0.75 * parameters_.particle_distance_m) return;
+    sum += static_cast<double>(walls_.pressure[j]);
+    ++count;
+  });
+  return {count > 0 ? sum / count : 0.0, static_cast<double>(count > 0)};
+}
+
+template <class Pack>
+ParticleSnapshot WcsphSolver<Pack>::snapshot() const {
+  ParticleSnapshot s;
+  s.time_s = time_s_;
+  s.fluid_count = fluid_.n;
+  for (const Particles<Pack>* set : {&fluid_, &walls_}) {
+    for (std::size_t i = 0; i < set->n; ++i) {
+      s.position_m.push_back(set->position.template at<float>(i));
+      s.velocity_m_s.push_back(set->velocity.template at<float>(i));
+      s.pressure_Pa.push_back(static_cast<float>(set->pressure[i]));
+      s.density_kg_m3.push_back(
+          static_cast<float>(parameters_.reference_density_kg_m3 + static_cast<double>(set->density[i])));
+      s.id.push_back(set->id[i]);
+    }
+  }
+  return s;
+}
+
+template <class Pack>
+std::int64_t WcsphSolver<Pack>::count_pairs() const {
+  std::int64_t pairs = 0;
+  const auto n = static_cast<std::int64_t>(fluid_.n);
+#pragma omp parallel for num_threads(threads_) schedule(dynamic, 256) reduction(+ : pairs)
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Vec3d x = fluid_.position.template at<double>(static_cast<std::size_t>(i));
+    for_each_near(sorted_fluid(), x, [&](std::size_t, double) { ++pairs; });
+    for_each_near(sorted_walls(), x, [&](std::size_t, double) { ++pairs; });
+  }
+  return pairs - n;
+}
+
+template class WcsphSolver<FloatPack>;
+template class WcsphSolver<double>;
+
+}  // namespace sluice::wcsph

@@ -1,0 +1,143 @@
+// Setting a WCSPH solver up: parameters checked, particles placed, fluid at rest under its own weight.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "solvers/wcsph/equation_of_state.h"
+#include "solvers/wcsph/wcsph_solver.h"
+
+namespace sluice::wcsph {
+namespace {
+
+/// How far particles may travel between two sorts, and the length of a search slice, in particle distances: measured to
+/// be the cheapest choices in violent flow (see bench/).
+constexpr double slack_over_distance = 0.08;
+constexpr double slice_over_distance = 0.5;
+
+Parameters checked(const Parameters& p) {
+  const auto require = [](bool good, const char* name, double value, const char* range) {
+    if (!good)
+      throw std::invalid_argument(fmt::format("{} = {} is out of its range: it must be {}", name, value, range));
+  };
+  require(p.particle_distance_m > 0, "particle_distance_m", p.particle_distance_m, "positive");
+  require(p.speed_of_sound_m_s > 0, "speed_of_sound_m_s", p.speed_of_sound_m_s, "positive");
+  require(p.reference_density_kg_m3 > 0, "reference_density_kg_m3", p.reference_density_kg_m3, "positive");
+  require(p.courant > 0 && p.courant <= 1, "courant", p.courant, "in (0, 1]");
+  require(p.alpha >= 0, "alpha", p.alpha, "zero or more");
+  require(p.delta >= 0 && p.delta <= 1, "delta", p.delta, "in [0, 1]");
+  require(p.gamma == 7, "gamma", p.gamma, "7, the only exponent this solver has");
+  require(p.kernel_radius_over_distance >= 2 && p.kernel_radius_over_distance <= 6, "kernel_radius_over_distance",
+          p.kernel_radius_over_distance, "in [2, 6]");
+  require(p.restart_interval >= 1, "restart_interval", p.restart_interval, "one or more");
+  return p;
+}
+
+RowGeometry rows(const Tank& tank, const Parameters& p) {
+  const double l0 = p.particle_distance_m;
+  return {tank.domain(), 2 * p.smoothing_length_m(), slack_over_distance * l0, slice_over_distance * l0};
+}
+
+}  // namespace
+
+template <class Pack>
+WcsphSolver<Pack>::WcsphSolver(const Scene& scene, const Parameters& parameters, int threads)
+    : parameters_(checked(parameters)),
+      threads_(std::max(1, threads)),
+      tank_(scene),
+      constants_(parameters_, FixedPoint<typename Lanes<Pack>::Coordinate>::quantum_m(longest_edge(tank_.domain()))),
+      fluid_index_(rows(tank_, parameters_)),
+      wall_index_(rows(tank_, parameters_)) {
+  place_walls(scene);
+  place_fluid(scene);
+  if (parameters_.walls == WallModel::dynamic) {
+    for (const std::int32_t i : wet_walls_) fill_hydrostatically(walls_, static_cast<std::size_t>(i));
+  }
+  update_fluid_state();
+  update_walls();
+}
+
+template <class Pack>
+void WcsphSolver<Pack>::place_fluid(const Scene& scene) {
+  fluid_.resize(scene.fluid.size());
+  for (std::size_t i = 0; i < fluid_.n; ++i) {
+    fluid_.position.set(i, scene.fluid[i]);
+    fluid_.id[i] = static_cast<std::int32_t>(i);
+  }
+  for (std::size_t i = 0; i < fluid_.n; ++i) fill_hydrostatically(fluid_, i);
+  sort_if_due(true);
+}
+
+/// Wall particles do not move: they are sorted once.
+template <class Pack>
+void WcsphSolver<Pack>::place_walls(const Scene& scene) {
+  walls_.resize(scene.walls.size());
+  for (std::size_t i = 0; i < walls_.n; ++i) {
+    walls_.position.set(i, scene.walls[i].position);
+    walls_.id[i] = static_cast<std::int32_t>(scene.fluid.size() + i);
+  }
+  wall_index_.sort(walls_.position.x, walls_.position.y, walls_.position.z, {}, threads_);
+  walls_.permute(wall_index_.order(), threads_);
+  walls_.encode_positions(tank_.domain(), 0, walls_.n);
+  for (const std::int32_t old : wall_index_.order()) {
+    wall_layer_.push_back(static_cast<std::int8_t>(scene.walls[static_cast<std::size_t>(old)].layer));
+  }
+}
+
+/// P = rho_0 g (H_W - z) below the still level [Pa].
+template <class Pack>
+void WcsphSolver<Pack>::fill_hydrostatically(Particles<Pack>& particles, std::size_t i) const {
+  const double depth = parameters_.water_height_m - particles.position.z[i];
+  const double pressure = std::max(0.0, -parameters_.reference_density_kg_m3 * parameters_.gravity_m_s2.z * depth);
+  particles.density[i] = static_cast<typename Lanes<Pack>::Real>(tait_density_deviation(pressure, constants_.tait));
+  particles.density_previous[i] = particles.density[i];
+}
+
+template <class Pack>
+std::int64_t WcsphSolver<Pack>::memory_bytes() const {
+  return fluid_.memory_bytes() + walls_.memory_bytes() + fluid_index_.memory_bytes() + wall_index_.memory_bytes() +
+         static_cast<std::int64_t>(leaves_.capacity() + wet_.capacity() + wet_walls_.capacity() * sizeof(std::int32_t) +
+                                   wall_layer_.capacity());
+}
+
+template <class Pack>
+std::map<std::string, double> WcsphSolver<Pack>::facts() const {
+  return {{"c0_m_s", parameters_.speed_of_sound_m_s},
+          {"h_m", parameters_.smoothing_length_m()},
+          {"sorts", static_cast<double>(sorts_)},
+          {"held_at_walls", static_cast<double>(held_)},
+          {"pairs_in_reach", static_cast<double>(count_pairs())},
+          {"lanes", static_cast<double>(Lanes<Pack>::width)}};
+}
+
+template <class Pack>
+void WcsphSolver<Pack>::set_fluid(std::int32_t id, const Vec3d& velocity_m_s, double density_deviation_kg_m3) {
+  const auto found = std::find(fluid_.id.begin(), fluid_.id.end(), id);
+  if (found == fluid_.id.end()) throw std::invalid_argument(fmt::format("no fluid particle has the id {}", id));
+  const auto i = static_cast<std::size_t>(found - fluid_.id.begin());
+  fluid_.velocity.set(i, velocity_m_s);
+  fluid_.velocity_previous.set(i, velocity_m_s);
+  fluid_.density[i] = static_cast<typename Lanes<Pack>::Real>(density_deviation_kg_m3);
+  fluid_.density_previous[i] = fluid_.density[i];
+  update_fluid_state();
+  update_walls();
+}
+
+template class WcsphSolver<FloatPack>;
+template class WcsphSolver<double>;
+
+}  // namespace sluice::wcsph
+
+namespace sluice {
+
+std::unique_ptr<Solver> make_wcsph_solver(const Scene& scene, const wcsph::Parameters& parameters, int threads) {
+  return std::make_unique<wcsph::WcsphSolver<FloatPack>>(scene, parameters, threads);
+}
+
+std::unique_ptr<Solver> make_reference_wcsph_solver(const Scene& scene, const wcsph::Parameters& parameters,
+                                                    int threads) {
+  return std::make_unique<wcsph::WcsphSolver<double>>(scene, parameters, threads);
+}
+
+}  // namespace sluice

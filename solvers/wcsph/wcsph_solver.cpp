@@ -1,0 +1,158 @@
+#include "solvers/wcsph/wcsph_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "solvers/wcsph/equation_of_state.h"
+#include "solvers/wcsph/time_step.h"
+#include "solvers/wcsph/verlet.h"
+
+namespace sluice::wcsph {
+namespace {
+
+/// Pressure, volume and speed of sound of one particle from its density.
+template <class Pack>
+void apply_equation_of_state(Particles<Pack>& p, std::size_t i, const PairConstants<Pack>& c) {
+  p.pressure[i] = tait_pressure(p.density[i], c.tait);
+  p.volume[i] = c.mass / (c.reference_density + p.density[i]);
+  p.sound[i] = tait_speed_of_sound(p.density[i], c.tait);
+}
+
+}  // namespace
+
+/// One step of the paper's section 2.2. Derived state (order, pressures, walls) belongs to the time at which the step
+/// ends, so that sensors between two steps see one instant.
+template <class Pack>
+double WcsphSolver<Pack>::step() {
+  const StepLimits limits = sum_rates();
+  const double dt = time_step(parameters_, limits);
+  clock_.time("advance", [&] { advance(dt); });
+  clock_.time("sort", [&] { sort_if_due(); });
+  clock_.time("equation_of_state", [&] { update_fluid_state(); });
+  clock_.time("walls", [&] { update_walls(); });
+  time_s_ += dt;
+  ++steps_;
+  return dt;
+}
+
+template <class Pack>
+StepLimits WcsphSolver<Pack>::sum_rates() {
+  if (parameters_.walls == WallModel::dynamic) {
+    clock_.time("walls", [&] { sum_wall_density_rates(walls_, wet_walls_, sorted_fluid(), constants_, threads_); });
+  }
+  return clock_.time("pair_sums",
+                     [&] { return sum_fluid_rates(fluid_, sorted_fluid(), sorted_walls(), constants_, threads_); });
+}
+
+template <class Pack>
+void WcsphSolver<Pack>::advance(double dt_s) {
+  const auto form = steps_ % parameters_.restart_interval == 0 ? VerletForm::restart : VerletForm::leap;
+  travel_m_ += advance_fluid(fluid_, dt_s, form, threads_);
+  if (parameters_.walls == WallModel::dynamic) advance_wall_density(walls_, dt_s, form, threads_);
+  if (parameters_.walls == WallModel::extrapolated) hold_at_walls();
+}
+
+/// Extrapolated pressures alone let a particle slip between wall particles now and then. Dynamic walls are left to
+/// leak, as the paper's do.
+template <class Pack>
+void WcsphSolver<Pack>::hold_at_walls() {
+  const auto n = static_cast<std::int64_t>(fluid_.n);
+  std::int64_t held = 0;
+#pragma omp parallel for num_threads(threads_) schedule(static) reduction(+ : held)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    Vec3d x = fluid_.position.template at<double>(i);
+    Vec3d u = fluid_.velocity.template at<double>(i);
+    if (!tank_.hold(x, u)) continue;
+    fluid_.position.set(i, x);
+    fluid_.velocity.set(i, u);
+    fluid_.velocity_previous.set(i, u);
+    ++held;
+  }
+  held_ += held;
+}
+
+/// Sorts when particles have travelled as far as the search allows, or when one has left.
+template <class Pack>
+void WcsphSolver<Pack>::sort_if_due(bool at_once) {
+  leaves_.resize(fluid_.n);
+  std::int64_t over_top = 0;
+  std::int64_t through_walls = 0;
+  std::int64_t undefined = 0;
+  const auto n = static_cast<std::int64_t>(fluid_.n);
+#pragma omp parallel for num_threads(threads_) schedule(static) reduction(+ : over_top, through_walls, undefined)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Whereabouts w = tank_.whereabouts(fluid_.position.template at<double>(i));
+    leaves_[i] = static_cast<std::uint8_t>(w);
+    over_top += w == Whereabouts::over_top;
+    through_walls += w == Whereabouts::through_wall;
+    undefined += w == Whereabouts::undefined;
+  }
+  if (undefined > 0) {
+    throw std::runtime_error(
+        fmt::format("{} particles have positions that are no numbers after step {} (t = {:.6f} s): the run has "
+                    "become unstable; try a smaller Courant number",
+                    undefined, steps_, time_s_));
+  }
+  if (!at_once && travel_m_ <= fluid_index_.geometry().slack_m && over_top + through_walls == 0) return;
+  lost_.over_top += over_top;
+  lost_.through_walls += through_walls;
+  fluid_index_.sort(fluid_.position.x, fluid_.position.y, fluid_.position.z, leaves_, threads_);
+  fluid_.permute(fluid_index_.order(), threads_);
+  travel_m_ = 0;
+  ++sorts_;
+  find_wet_walls();
+}
+
+template <class Pack>
+void WcsphSolver<Pack>::update_fluid_state() {
+  const auto n = static_cast<std::int64_t>(fluid_.n);
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (std::int64_t block = 0; block < (n + 1023) / 1024; ++block) {
+    const std::int64_t last = std::min(n, (block + 1) * 1024);
+    fluid_.encode_positions(tank_.domain(), static_cast<std::size_t>(block) * 1024, static_cast<std::size_t>(last));
+    for (std::int64_t i = block * 1024; i < last; ++i)
+      apply_equation_of_state(fluid_, static_cast<std::size_t>(i), constants_);
+  }
+}
+
+template <class Pack>
+void WcsphSolver<Pack>::update_walls() {
+  if (parameters_.walls == WallModel::extrapolated) {
+    extrapolate_wall_pressures(walls_, wet_walls_, sorted_fluid(), constants_, threads_);
+  }
+  const auto n = static_cast<std::int64_t>(wet_walls_.size());
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (std::int64_t k = 0; k < n; ++k) {
+    apply_equation_of_state(walls_, static_cast<std::size_t>(wet_walls_[static_cast<std::size_t>(k)]), constants_);
+  }
+}
+
+/// Wall particles that no fluid can reach until the next sort are left out of the sums; they carry no pressure.
+template <class Pack>
+void WcsphSolver<Pack>::find_wet_walls() {
+  const auto n = static_cast<std::int64_t>(walls_.n);
+  wet_.resize(walls_.n);
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    wet_[i] = fluid_index_.any_near(walls_.position.template at<double>(i));
+    if (wet_[i] != 0) continue;
+    walls_.density_rate[i] = 0;
+    if (parameters_.walls == WallModel::extrapolated) walls_.density[i] = 0;
+    apply_equation_of_state(walls_, i, constants_);
+  }
+  wet_walls_.clear();
+  for (std::size_t i = 0; i < walls_.n; ++i) {
+    if (wet_[i] != 0) wet_walls_.push_back(static_cast<std::int32_t>(i));
+  }
+}
+
+template class WcsphSolver<FloatPack>;
+template class WcsphSolver<double>;
+
+}  // namespace sluice::wcsph

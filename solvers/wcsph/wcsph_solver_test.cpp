@@ -1,0 +1,229 @@
+// The solver on a few particles: signs, agreement of the fast path with the reference, independence of threads, losses.
+#include "solvers/wcsph/wcsph_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "solvers/wcsph/test_tank.h"
+
+namespace sluice::wcsph {
+namespace {
+
+constexpr double l0 = 0.02;
+
+template <class Pack>
+class Solvers : public testing::Test {};
+using Paths = testing::Types<double, FloatPack>;
+TYPED_TEST_SUITE(Solvers, Paths);
+
+template <class Pack>
+std::size_t index_of(const WcsphSolver<Pack>& s, std::int32_t id) {
+  return static_cast<std::size_t>(std::find(s.fluid().id.begin(), s.fluid().id.end(), id) - s.fluid().id.begin());
+}
+
+/// Two particles l0 apart along x in the middle of nowhere.
+template <class Pack>
+WcsphSolver<Pack> two_particles() {
+  return WcsphSolver<Pack>(free_particles(l0, {{0.4, 0.4, 0.4}, {0.4 + l0, 0.4, 0.4}}), free_parameters(l0), 1);
+}
+
+TYPED_TEST(Solvers, TwoThatApproachGainDensityAndAreSlowedDown) {
+  auto s = two_particles<TypeParam>();
+  s.set_fluid(0, {0.5, 0, 0}, 0);
+  s.set_fluid(1, {-0.5, 0, 0}, 0);
+  s.step();
+  EXPECT_GT(s.fluid().density[0], 0);
+  EXPECT_GT(s.fluid().density[1], 0);
+  EXPECT_LT(s.fluid().velocity.x[index_of(s, 0)], 0.5) << "viscosity acts against the approach";
+  EXPECT_GT(s.fluid().velocity.x[index_of(s, 1)], -0.5);
+}
+
+TYPED_TEST(Solvers, TwoThatPartLoseDensityWithoutViscousForce) {
+  auto s = two_particles<TypeParam>();
+  s.set_fluid(0, {-0.5, 0, 0}, 0);
+  s.set_fluid(1, {0.5, 0, 0}, 0);
+  s.step();
+  EXPECT_LT(s.fluid().density[0], 0);
+  EXPECT_EQ(s.fluid().velocity.x[index_of(s, 0)], typename Lanes<TypeParam>::Real(-0.5));
+}
+
+TYPED_TEST(Solvers, TwoUnderPressureAreDrivenApart) {
+  auto s = two_particles<TypeParam>();
+  s.set_fluid(0, {0, 0, 0}, 2);
+  s.set_fluid(1, {0, 0, 0}, 2);
+  s.step();
+  EXPECT_LT(s.fluid().velocity.x[index_of(s, 0)], 0);
+  EXPECT_GT(s.fluid().velocity.x[index_of(s, 1)], 0);
+}
+
+TYPED_TEST(Solvers, DensityDiffusesBetweenTwo) {
+  auto s = two_particles<TypeParam>();
+  s.set_fluid(0, {0, 0, 0}, 4);
+  s.set_fluid(1, {0, 0, 0}, 0);
+  s.step();
+  EXPECT_LT(s.fluid().density[index_of(s, 0)], 4);
+  EXPECT_GT(s.fluid().density[index_of(s, 1)], 0);
+}
+
+TYPED_TEST(Solvers, AnIsolatedDropKeepsItsMomentum) {
+  std::vector<Vec3d> drop;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> jitter(-0.2 * l0, 0.2 * l0);
+  for (int k = 0; k < 512; ++k) {
+    drop.push_back({0.3 + (k % 8) * l0 + jitter(random), 0.3 + (k / 8 % 8) * l0 + jitter(random),
+                    0.3 + (k / 64) * l0 + jitter(random)});
+  }
+  WcsphSolver<TypeParam> s(free_particles(l0, drop), free_parameters(l0), 2);
+  for (std::int32_t k = 0; k < 512; ++k)
+    s.set_fluid(k, {0.3 + 20 * jitter(random), 10 * jitter(random), -0.2}, 100 * jitter(random));
+  const auto momentum = [&] {
+    Vec3d sum;
+    double size = 0;
+    for (std::size_t i = 0; i < s.fluid().n; ++i) {
+      const Vec3d u = s.fluid().velocity.template at<double>(i);
+      sum += u;
+      size += std::sqrt(dot(u, u));
+    }
+    return std::pair{sum, size};
+  };
+  const Vec3d before = momentum().first;
+  for (int k = 0; k < 100; ++k) s.step();
+  const auto [after, size] = momentum();
+  const Vec3d change = after - before;
+  EXPECT_LT(std::sqrt(dot(change, change)) / size, sizeof(typename Lanes<TypeParam>::Real) == 8 ? 1e-12 : 1e-5);
+  EXPECT_EQ(s.fluid_count(), 512);
+}
+
+/// A dam break in a small tank with a box: every part of the solver at work.
+Scene small_dam_break(WallModel walls) {
+  SceneDescription d;
+  d.tank = {{0, 0, 0}, {0.8, 0.24, 0.4}};
+  d.fluid = {{{0.5, 0, 0}, {0.8, 0.24, 0.24}}};
+  d.obstacles = {{{0.2, 0.08, 0}, {0.28, 0.16, 0.08}}};
+  d.particle_distance_m = 2 * l0;
+  d.wall_layers = walls == WallModel::dynamic ? 1 : 3;
+  return build_scene(d);
+}
+
+Parameters small_parameters(const Scene& scene, WallModel walls) {
+  return parameters_for(scene.description, 0.24, walls);
+}
+
+class Walls : public testing::TestWithParam<WallModel> {};
+INSTANTIATE_TEST_SUITE_P(Both, Walls, testing::Values(WallModel::dynamic, WallModel::extrapolated),
+                         [](const auto& info) {
+                           return info.param == WallModel::dynamic ? "dynamic" : "extrapolated";
+                         });
+
+TEST_P(Walls, FastPathFollowsTheReference) {
+  const Scene scene = small_dam_break(GetParam());
+  WcsphSolver<double> reference(scene, small_parameters(scene, GetParam()), 1);
+  WcsphSolver<FloatPack> fast(scene, small_parameters(scene, GetParam()), 1);
+  for (int k = 0; k < 150; ++k) {
+    reference.step();
+    fast.step();
+  }
+  EXPECT_NEAR(fast.time_s() / reference.time_s(), 1.0, 1e-5);
+  double worst = 0;
+  double worst_pressure = 0;
+  for (std::int32_t id = 0; id < static_cast<std::int32_t>(scene.fluid.size()); ++id) {
+    const std::size_t a = index_of(reference, id);
+    const std::size_t b = index_of(fast, id);
+    const Vec3d d = reference.fluid().position.at<double>(a) - fast.fluid().position.at<double>(b);
+    worst = std::max(worst, std::sqrt(dot(d, d)));
+    worst_pressure = std::max(worst_pressure,
+                              std::abs(reference.fluid().pressure[a] - static_cast<double>(fast.fluid().pressure[b])));
+  }
+  EXPECT_LT(worst, 2e-4 * l0);
+  EXPECT_LT(worst_pressure, 0.01 * 1000 * 9.81 * 0.24);
+}
+
+TEST_P(Walls, ResultsAreBitwiseEqualForAnyNumberOfThreads) {
+  const Scene scene = small_dam_break(GetParam());
+  const Parameters p = small_parameters(scene, GetParam());
+  WcsphSolver<FloatPack> one(scene, p, 1);
+  WcsphSolver<FloatPack> two(scene, p, 2);
+  WcsphSolver<FloatPack> four(scene, p, 4);
+  while (one.time_s() < 0.25) {
+    one.step();
+    two.step();
+    four.step();
+  }
+  for (const auto* other : {&two, &four}) {
+    ASSERT_EQ(one.time_s(), other->time_s());
+    EXPECT_EQ(one.fluid().id, other->fluid().id);
+    EXPECT_EQ(one.fluid().position.x, other->fluid().position.x);
+    EXPECT_EQ(one.fluid().position.y, other->fluid().position.y);
+    EXPECT_EQ(one.fluid().position.z, other->fluid().position.z);
+    EXPECT_EQ(one.fluid().velocity.x, other->fluid().velocity.x);
+    EXPECT_EQ(one.fluid().density, other->fluid().density);
+    EXPECT_EQ(one.walls().density, other->walls().density);
+  }
+}
+
+TEST(WcsphSolver, WalledInFluidIsNotLost) {
+  const Scene scene = small_dam_break(WallModel::extrapolated);
+  WcsphSolver<FloatPack> s(scene, small_parameters(scene, WallModel::extrapolated), 2);
+  while (s.time_s() < 0.45) s.step();
+  EXPECT_EQ(s.lost().through_walls, 0);
+  EXPECT_EQ(s.fluid_count() + s.lost().over_top, static_cast<std::int64_t>(scene.fluid.size()));
+}
+
+TEST(WcsphSolver, CountsParticlesThatPassThroughAWallApartFromThoseOverTheTop) {
+  // One shot at a wall faster than it can be held, one upwards out of the tank.
+  WcsphSolver<FloatPack> s(free_particles(l0, {{0.1, 0.4, 0.4}, {0.6, 0.4, 0.6}}), free_parameters(l0), 1);
+  s.set_fluid(0, {-400, 0, 0}, 0);
+  s.set_fluid(1, {0, 0, 400}, 0);
+  for (int k = 0; k < 200 && s.fluid_count() > 0; ++k) s.step();
+  EXPECT_EQ(s.lost().through_walls, 1);
+  EXPECT_EQ(s.lost().over_top, 1);
+  EXPECT_EQ(s.fluid_count(), 0);
+}
+
+TEST(WcsphSolver, StaysWithinItsMemory) {
+  const Scene scene = build_scene(still_tank(0.02, 0.8, 0.4, 0.4, 0.3, WallModel::extrapolated));
+  WcsphSolver<FloatPack> s(scene, parameters_for(scene.description, 0.3, WallModel::extrapolated), 2);
+  while (s.steps() < 10) s.step();
+  EXPECT_LE(s.memory_bytes(), 200 * (s.fluid_count() + s.solid_count()));
+}
+
+TEST(WcsphSolver, NamesAParameterThatIsOutOfRange) {
+  const Scene scene = small_dam_break(WallModel::dynamic);
+  Parameters p = small_parameters(scene, WallModel::dynamic);
+  p.courant = -1;
+  try {
+    WcsphSolver<FloatPack> s(scene, p, 1);
+    FAIL();
+  } catch (const std::invalid_argument& e) {
+    EXPECT_NE(std::string(e.what()).find("courant"), std::string::npos);
+  }
+}
+
+TEST(WcsphSolver, SaysThatItHasBecomeUnstable) {
+  auto s = two_particles<FloatPack>();
+  s.set_fluid(0, {NAN, 0, 0}, 0);
+  EXPECT_THROW(
+      {
+        for (int k = 0; k < 3; ++k) s.step();
+      },
+      std::runtime_error);
+}
+
+TEST(FixedPoint, PairDifferencesAreExactToANanometreAnywhereInTheTank) {
+  const FixedPoint<std::int32_t> x(-0.08, 3.4);
+  const double quantum = FixedPoint<std::int32_t>::quantum_m(3.4);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> in(0.0, 3.2);
+  std::uniform_real_distribution<double> near(-0.02, 0.02);
+  for (int k = 0; k < 1000; ++k) {
+    const double a = in(random);
+    const double b = a + near(random);
+    EXPECT_NEAR((x.encode(b) - x.encode(a)) * quantum, b - a, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace sluice::wcsph

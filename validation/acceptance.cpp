@@ -1,0 +1,193 @@
+#include "validation/acceptance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace sluice {
+namespace {
+
+// Particle distances and viscosities are typed by people: equal means equal to the digits that they type.
+bool about_equal(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
+}
+
+const AcceptanceMetric& metric_of(std::string_view name) {
+  for (const AcceptanceMetric& metric : acceptance_metrics())
+    if (metric.name == name) return metric;
+  throw std::invalid_argument(fmt::format("unknown acceptance metric `{}`", name));
+}
+
+Window window_of(const Case& c) {
+  return {c.window.start_s, c.window.end_s};
+}
+
+// Comparisons are costly (the lag's search most of all): one a column, shared by its rows.
+class Comparisons {
+ public:
+  Comparisons(const Case& c, const RunRecord& run, const MeasuredData* measured)
+      : case_(c), run_(run), measured_(measured) {}
+
+  // nullptr with a reason when there is nothing to compare.
+  const Comparison* find(const AcceptanceRow& row, std::string& reason) {
+    const CaseSensor* sensor = case_.find_sensor(row.sensor);
+    if (sensor == nullptr) throw std::invalid_argument("unknown sensor " + row.sensor);
+    const std::string column = probe_column(*sensor, row.model);
+    if (!run_.probes.has(column)) {
+      reason = "no column " + column;
+      return nullptr;
+    }
+    if (measured_ == nullptr || !measured_->has(sensor->measured)) {
+      reason = "no measurement of " + row.sensor;
+      return nullptr;
+    }
+    auto found = by_column_.find(column);
+    if (found == by_column_.end())
+      found = by_column_
+                  .emplace(column,
+                           compare(run_.probes.column(column), measured_->series(sensor->measured), window_of(case_)))
+                  .first;
+    return &found->second;
+  }
+
+ private:
+  const Case& case_;
+  const RunRecord& run_;
+  const MeasuredData* measured_;
+  std::map<std::string, Comparison> by_column_;
+};
+
+// A run that stopped early proves nothing, however good its counts look.
+std::string why_unfinished(const Case& c, const RunRecord& run) {
+  if (const std::string status = run.status(); !status.empty() && status != "finished") return "the run is " + status;
+  const double reached_s = run.probes.rows() == 0 ? 0 : run.probes.times_s().back();
+  if (reached_s + 2 / c.output_rate_Hz < c.window.end_s)
+    return fmt::format("the run ends at {:.3g} s, the window at {:g} s", reached_s, c.window.end_s);
+  return "";
+}
+
+AcceptanceCheck check_row(const AcceptanceRow& row, const RunRecord& run, Comparisons& comparisons,
+                          const std::string& unfinished) {
+  AcceptanceCheck check{row, AcceptanceVerdict::not_applicable, std::nullopt, ""};
+  if (!applies(row, run)) return check;
+  check.verdict = AcceptanceVerdict::missing;
+  check.reason = unfinished;
+  if (!unfinished.empty()) return check;
+  if (metric_of(row.metric).needs_sensor) {
+    if (const Comparison* comparison = comparisons.find(row, check.reason)) {
+      check.value = sensor_metric(row.metric, *comparison);
+      if (!check.value) check.reason = comparison->remarks.empty() ? "no such value" : comparison->remarks.front();
+    }
+  } else {
+    check.value = run_metric(row.metric, run);
+    if (!check.value) check.reason = "run.json does not tell";
+  }
+  if (!check.value) return check;
+  const bool inside = *check.value >= row.lower && *check.value <= row.upper;
+  check.verdict = inside ? AcceptanceVerdict::pass : AcceptanceVerdict::fail;
+  return check;
+}
+
+}  // namespace
+
+std::string_view to_string(AcceptanceVerdict verdict) {
+  switch (verdict) {
+    case AcceptanceVerdict::pass:
+      return "pass";
+    case AcceptanceVerdict::fail:
+      return "FAIL";
+    case AcceptanceVerdict::missing:
+      return "missing";
+    case AcceptanceVerdict::not_applicable:
+      break;
+  }
+  return "not applicable";
+}
+
+bool applies(const AcceptanceRow& row, const RunRecord& run) {
+  if (row.solver != run.solver) return false;
+  if (!row.walls.empty() && row.walls != run.walls) return false;
+  if (run.l0_m < row.l0_min_m && !about_equal(run.l0_m, row.l0_min_m)) return false;
+  if (run.l0_m > row.l0_max_m && !about_equal(run.l0_m, row.l0_max_m)) return false;
+  return !row.alpha || (run.alpha() && about_equal(*run.alpha(), *row.alpha));
+}
+
+std::optional<double> sensor_metric(std::string_view metric, const Comparison& c) {
+  if (metric == "impulse_deviation") return c.impulse.deviation();
+  if (metric == "arrival_difference_s") return c.arrival_s.difference();
+  if (metric == "peak_deviation") return c.peak.deviation();
+  if (metric == "smoothed_peak_deviation") return c.smoothed_peak.deviation();
+  if (metric == "peak_time_difference_s") return c.peak_time_s.difference();
+  if (metric == "rmse_over_range") return c.rmse_over_range;
+  if (metric == "lag_s") return c.lag_s;
+  if (metric == "share_inside_band") return c.share_inside_band;
+  throw std::invalid_argument(fmt::format("`{}` is not a metric of a sensor", metric));
+}
+
+std::optional<double> run_metric(std::string_view metric, const RunRecord& run) {
+  if (metric == "lost_through_walls") return run.number("lost.through_walls");
+  if (metric == "fluid_volume_deviation") return run.number("fluid_volume.deviation");
+  if (metric != "lost_over_top_share")
+    throw std::invalid_argument(fmt::format("`{}` is not a metric of a whole run", metric));
+  const auto lost = run.number("lost.over_top");
+  const auto all = run.number("particles.fluid");
+  if (!lost || !all || *all <= 0) return std::nullopt;
+  return *lost / *all;
+}
+
+std::vector<AcceptanceCheck> check_acceptance(const Case& c, const RunRecord& run, const MeasuredData* measured) {
+  Comparisons comparisons(c, run, measured);
+  const std::string unfinished = why_unfinished(c, run);
+  std::vector<AcceptanceCheck> checks;
+  for (const AcceptanceRow& row : c.acceptance) checks.push_back(check_row(row, run, comparisons, unfinished));
+  return checks;
+}
+
+bool all_passed(const std::vector<AcceptanceCheck>& checks) {
+  bool any = false;
+  for (const AcceptanceCheck& check : checks) {
+    if (check.verdict == AcceptanceVerdict::not_applicable) continue;
+    if (check.verdict != AcceptanceVerdict::pass) return false;
+    any = true;
+  }
+  return any;
+}
+
+std::string acceptance_name(const AcceptanceRow& row) {
+  std::string name = row.metric;
+  if (!row.sensor.empty()) name += " " + row.sensor;
+  if (!row.model.empty()) name += " " + row.model;
+  return name;
+}
+
+std::string acceptance_value_text(const AcceptanceRow& row, double value) {
+  const std::string_view unit = metric_of(row.metric).unit;
+  if (unit == "1") return fmt::format("{:+.1f} %", 100 * value);
+  if (unit == "s") return fmt::format("{:+.0f} ms", 1000 * value);
+  return fmt::format("{:.0f}", value);
+}
+
+std::string acceptance_band_text(const AcceptanceRow& row) {
+  const bool low = std::isfinite(row.lower), high = std::isfinite(row.upper);
+  if (low && high)
+    return fmt::format("{} to {}", acceptance_value_text(row, row.lower), acceptance_value_text(row, row.upper));
+  if (high) return "at most " + acceptance_value_text(row, row.upper);
+  return "at least " + acceptance_value_text(row, row.lower);
+}
+
+std::string acceptance_table(const std::vector<AcceptanceCheck>& checks) {
+  std::string text = fmt::format("{:<36} {:>10}   {:<24} {}\n", "quantity", "value", "band", "verdict");
+  for (const AcceptanceCheck& check : checks) {
+    if (check.verdict == AcceptanceVerdict::not_applicable) continue;
+    const std::string value = check.value ? acceptance_value_text(check.row, *check.value) : "-";
+    text += fmt::format("{:<36} {:>10}   {:<24} {}", acceptance_name(check.row), value, acceptance_band_text(check.row),
+                        to_string(check.verdict));
+    text += check.reason.empty() ? "\n" : " (" + check.reason + ")\n";
+  }
+  return text;
+}
+
+}  // namespace sluice

@@ -1,0 +1,53 @@
+// Acceptance rows of a case, evaluated on one run: the one implementation that `sluice validate`, the reports and the
+// validation test share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "validation/case.h"
+#include "validation/measured.h"
+#include "validation/metrics.h"
+#include "validation/run_directory.h"
+
+namespace sluice {
+
+/// `missing`: the row applies, but the run or the measurement lacks what it needs. Counts as not passed.
+enum class AcceptanceVerdict { pass, fail, missing, not_applicable };
+
+std::string_view to_string(AcceptanceVerdict verdict);
+
+/// One row on one run.
+struct AcceptanceCheck {
+  AcceptanceRow row;
+  AcceptanceVerdict verdict = AcceptanceVerdict::not_applicable;
+  std::optional<double> value;  ///< in the metric's unit
+  std::string reason;           ///< of `missing`
+};
+
+/// Whether a row speaks of this run: solver, wall model, particle distance and alpha.
+bool applies(const AcceptanceRow& row, const RunRecord& run);
+
+/// A sensor metric's value; nullopt when the comparison lacks it. Throws std::invalid_argument for an unknown metric.
+std::optional<double> sensor_metric(std::string_view metric, const Comparison& comparison);
+
+/// A whole-run metric's value; nullopt when the manifest lacks it. Throws std::invalid_argument for an unknown metric.
+std::optional<double> run_metric(std::string_view metric, const RunRecord& run);
+
+/// Every row of the case, in its order. `measured` may be nullptr: then sensor rows are missing. Bounds are inclusive.
+std::vector<AcceptanceCheck> check_acceptance(const Case& c, const RunRecord& run, const MeasuredData* measured);
+
+/// True when at least one row applies and every applicable row passes.
+bool all_passed(const std::vector<AcceptanceCheck>& checks);
+
+/// "impulse_deviation P1 wall", and a value or bound for people ("+4.0 %", "+15 ms", "3").
+std::string acceptance_name(const AcceptanceRow& row);
+std::string acceptance_value_text(const AcceptanceRow& row, double value);
+std::string acceptance_band_text(const AcceptanceRow& row);
+
+/// A plain-text table of the applicable rows, for terminals and logs.
+std::string acceptance_table(const std::vector<AcceptanceCheck>& checks);
+
+}  // namespace sluice

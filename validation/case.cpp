@@ -1,0 +1,130 @@
+#include "validation/case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "validation/manifest.h"
+#include "validation/suggest.h"
+
+namespace sluice {
+namespace {
+
+template <class T>
+const T* find_named(const std::vector<T>& items, std::string_view name) {
+  auto found = std::find_if(items.begin(), items.end(), [&](const T& item) { return item.name == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+double shortest_side(const Box& box) {
+  return std::min({box.upper.x - box.lower.x, box.upper.y - box.lower.y, box.upper.z - box.lower.z});
+}
+
+}  // namespace
+
+std::string_view to_string(SensorKind kind) {
+  return kind == SensorKind::pressure ? "pressure" : "wave_height";
+}
+
+std::string_view unit_of(SensorKind kind) {
+  return kind == SensorKind::pressure ? "Pa" : "m";
+}
+
+std::string probe_column(const CaseSensor& sensor, std::string_view model) {
+  std::string name = sensor.name;
+  if (!model.empty()) name.append("_").append(model);
+  return name.append("_").append(unit_of(sensor.kind));
+}
+
+const std::vector<AcceptanceMetric>& acceptance_metrics() {
+  static const std::vector<AcceptanceMetric> metrics{
+      {"impulse_deviation", "1", true, "impulse over the window, (simulated - measured) / measured"},
+      {"arrival_difference_s", "s", true, "arrival at 10 % of the measured peak, simulated - measured"},
+      {"peak_deviation", "1", true, "largest value, (simulated - measured) / measured"},
+      {"smoothed_peak_deviation", "1", true, "the same after a 10 ms running mean of both series"},
+      {"peak_time_difference_s", "s", true, "time of the largest value, simulated - measured"},
+      {"rmse_over_range", "1", true, "root mean square difference over the window / measured range"},
+      {"lag_s", "s", true, "shift of best correlation; positive: the simulation is late"},
+      {"share_inside_band", "1", true, "share of the window's time inside the measured band"},
+      {"lost_through_walls", "particles", false, "fluid particles that passed a wall"},
+      {"lost_over_top_share", "1", false, "fluid particles that left over the open top / all at the start"},
+      {"fluid_volume_deviation", "1", false, "(volume on the lattice - nominal) / nominal, at the start"},
+  };
+  return metrics;
+}
+
+const CaseSensor* Case::find_sensor(std::string_view sensor_name) const {
+  return find_named(sensors, sensor_name);
+}
+const SolverOption* Case::find_solver(std::string_view solver_name) const {
+  return find_named(solvers, solver_name);
+}
+const Tier* Case::find_tier(std::string_view tier_name) const {
+  return find_named(tiers, tier_name);
+}
+
+const WallOption* find_walls(const SolverOption& solver, std::string_view walls) {
+  return find_named(solver.walls, walls);
+}
+
+std::string primary_model(const Case& c, const CaseSensor& sensor, std::string_view solver, std::string_view walls) {
+  const SolverOption* option = c.find_solver(solver);
+  if (option == nullptr) throw std::invalid_argument(fmt::format("case {} has no solver `{}`", c.name, solver));
+  const WallOption* wall = find_walls(*option, walls);
+  if (wall == nullptr) throw std::invalid_argument(fmt::format("solver {} has no wall model `{}`", solver, walls));
+  return sensor.kind == SensorKind::pressure ? wall->pressure_model : wall->wave_height_model;
+}
+
+std::string particle_distance_problem(const Case& c, double l0_m) {
+  if (!(l0_m > 0)) return "must be greater than zero";
+  double shortest = shortest_side(c.tank);
+  for (const Box& fluid : c.fluid) shortest = std::min(shortest, shortest_side(fluid));
+  for (const Box& obstacle : c.obstacles) shortest = std::min(shortest, shortest_side(obstacle));
+  if (3 * l0_m <= shortest * (1 + 1e-9)) return "";
+  return fmt::format("is {} m, too large for a length of {:g} m in the geometry (use {:g} m or less)", l0_m, shortest,
+                     std::floor(1e4 * shortest / 3) / 1e4);
+}
+
+SceneDescription scene_description(const Case& c, double l0_m, int wall_layers) {
+  return {c.tank, c.fluid, c.obstacles, l0_m, wall_layers, c.gravity_m_s2, c.density_kg_m3};
+}
+
+std::filesystem::path resolve_in_source_tree(const std::filesystem::path& path) {
+  if (path.is_absolute() || std::filesystem::exists(path)) return path;
+  const std::filesystem::path in_source = build_info().source_root / path;
+  return std::filesystem::exists(in_source) ? in_source : path;
+}
+
+std::filesystem::path case_directory() {
+  return resolve_in_source_tree("validation/cases");
+}
+
+std::vector<std::string> case_names() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(case_directory(), ignored))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Case load_case(const std::string& name_or_path) {
+  std::filesystem::path file = name_or_path;
+  if (file.extension() != ".toml") {
+    file = case_directory() / (name_or_path + ".toml");
+    if (!std::filesystem::exists(file))
+      throw CaseError(fmt::format("no case `{}` in {}{}", name_or_path, case_directory().string(),
+                                  suggestion(name_or_path, case_names())));
+  }
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf()))
+    throw CaseError(
+        fmt::format("{}: cannot be read (give the name of a case or the path of its TOML file)", file.string()));
+  return parse_case(text.str(), file.string());
+}
+
+}  // namespace sluice

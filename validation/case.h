@@ -1,0 +1,203 @@
+// A validation case: everything in validation/cases/*.toml that a run, a comparison or a report needs to know.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solvers/scene.h"
+#include "solvers/vec3.h"
+
+namespace sluice {
+
+/// A case file that cannot be used. The message reads `file:line: key: what is wrong (remedy)`.
+class CaseError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class SensorKind { pressure, wave_height };
+
+std::string_view to_string(SensorKind kind);
+
+/// One probe of the experiment.
+struct CaseSensor {
+  std::string name;  ///< such as "P1"
+  SensorKind kind = SensorKind::pressure;
+  Vec3d position_m;      ///< wave height: the foot of the probe's vertical line, on the bed
+  Vec3d normal;          ///< unit vector into the fluid: away from the wall, or up the probe's line
+  std::string measured;  ///< name of the measured series in the digest; empty where nothing was measured
+};
+
+/// "Pa" or "m".
+std::string_view unit_of(SensorKind kind);
+
+/// The header of a column in probes.csv: `<sensor>[_<model>]_<unit>`; without a model the primary reading.
+std::string probe_column(const CaseSensor& sensor, std::string_view model = "");
+
+/// A closed interval of time [s].
+struct TimeWindow {
+  double start_s = 0;
+  double end_s = 0;
+};
+
+/// One wall model of a solver: how many particle layers it needs, and which sensor models are the primary readings.
+struct WallOption {
+  std::string name;  ///< such as "extrapolated"
+  int layers = 3;
+  std::string pressure_model;     ///< "wall" or "kernel"
+  std::string wave_height_model;  ///< "column" or "top"
+};
+
+/// The case's defaults for one solver.
+struct SolverOption {
+  std::string name;           ///< such as "wcsph"
+  std::string default_walls;  ///< name of one of `walls`; empty when a solver knows no choice
+  std::vector<WallOption> walls;
+  std::map<std::string, double> parameters;  ///< numeric solver parameters by name; the solver knows which it takes
+};
+
+/// A named resolution at which the case is validated.
+struct Tier {
+  std::string name;
+  double l0_m = 0;
+  double t_end_s = 0;
+};
+
+/// One acceptance band: a metric's value must lie in [lower, upper] for runs that the row applies to.
+struct AcceptanceRow {
+  std::string metric;  ///< one of acceptance_metrics()
+  std::string sensor;  ///< empty for a quantity of the whole run
+  std::string model;   ///< sensor model ("wall", "column"); empty: the primary reading
+  std::string solver;
+  std::string walls;    ///< empty: every wall model
+  double l0_min_m = 0;  ///< the row applies to l0_min_m <= l0 <= l0_max_m ...
+  double l0_max_m = 0;
+  std::optional<double> alpha;  ///< ... and to this artificial viscosity only, when given
+  double lower = 0;
+  double upper = 0;
+  std::string remark;
+  int line = 0;  ///< in the case file
+};
+
+/// Names of the metrics that acceptance rows can use, with what each needs.
+struct AcceptanceMetric {
+  std::string_view name;
+  std::string_view unit;  ///< "s", "1" (relative), "particles"
+  bool needs_sensor = true;
+  std::string_view meaning;
+};
+const std::vector<AcceptanceMetric>& acceptance_metrics();
+
+/// An impulse as printed in the paper. Printed values are kept as they are; `remark` notes misprints.
+struct PublishedImpulse {
+  std::string sensor;
+  std::string source;           ///< "experiment", "wcsph" or "mps"
+  std::optional<double> alpha;  ///< wcsph only
+  double impulse_Pa_s = 0;
+  std::optional<double> deviation_percent;  ///< unsigned, as printed
+};
+
+/// A computation as printed in the paper's table of parameters and processing times.
+struct PublishedRun {
+  std::string solver;
+  double l0_m = 0;
+  double radius_over_l0 = 0;
+  std::vector<double> alpha;  ///< wcsph: as many as `viscosity_m2_s`
+  std::vector<double> viscosity_m2_s;
+  double fluid_particles = 0;
+  double solid_particles = 0;
+  double t_end_s = 0;
+  double dt_s = 0;
+  double cpu_time_s = 0;
+  std::optional<double> gpu_time_s;
+  std::string remark;
+};
+
+/// Which figure of the paper shows a sensor.
+struct PublishedFigure {
+  int number = 0;
+  std::string sensor;
+};
+
+struct Published {
+  std::string reference;  ///< of the paper
+  std::vector<PublishedImpulse> impulses;
+  int impulses_table = 0;
+  std::vector<PublishedRun> runs;
+  int runs_table = 0;
+  std::vector<PublishedFigure> figures;
+  int snapshots_figure = 0;
+  std::string cpu;  ///< the machine of the printed CPU times
+  std::string gpu;
+};
+
+struct Case {
+  std::string name;
+  std::string title;
+  std::string reference;       ///< of the experiment
+  std::filesystem::path file;  ///< where it was read from
+  std::string hash;            ///< of the file's bytes, as file_hash() gives
+
+  Box tank;  ///< inner faces [m]
+  std::vector<Box> fluid;
+  std::vector<Box> obstacles;
+  Vec3d gravity_m_s2;
+  double water_height_m = 0;  ///< H_W: scale of c0 = 20 sqrt(g H_W) and of the dimensionless pressure
+  double density_kg_m3 = 0;
+
+  std::vector<CaseSensor> sensors;
+  std::filesystem::path measured;  ///< digest of the measured series, relative to the source root; may not exist
+  TimeWindow window;               ///< of impulses and RMSE
+  double t_end_s = 0;
+  double output_rate_Hz = 1000;
+  std::vector<double> snapshot_times_s;
+
+  std::string default_solver;
+  std::vector<SolverOption> solvers;
+  std::vector<Tier> tiers;
+  std::vector<AcceptanceRow> acceptance;
+  Published published;
+
+  /// nullptr when there is none of that name.
+  const CaseSensor* find_sensor(std::string_view sensor_name) const;
+  const SolverOption* find_solver(std::string_view solver_name) const;
+  const Tier* find_tier(std::string_view tier_name) const;
+};
+
+/// nullptr when the solver has no wall model of that name.
+const WallOption* find_walls(const SolverOption& solver, std::string_view walls);
+
+/// The sensor model of the primary reading ("wall", "kernel", "column", "top").
+/// Throws std::invalid_argument when the case does not know the solver or its wall model.
+std::string primary_model(const Case& c, const CaseSensor& sensor, std::string_view solver, std::string_view walls);
+
+/// What is wrong with a particle distance [m] for this case, with the largest that would do; empty when it will do.
+/// Every obstacle and every body of fluid must be at least three particles across.
+std::string particle_distance_problem(const Case& c, double l0_m);
+
+/// The case's geometry for one particle distance [m] and number of wall layers.
+SceneDescription scene_description(const Case& c, double l0_m, int wall_layers);
+
+/// Reads a case by name ("kleefsman": validation/cases/kleefsman.toml under case_directory()) or by the path of its
+/// TOML file. Throws CaseError; for an unknown name the message lists those that exist.
+Case load_case(const std::string& name_or_path);
+
+/// Reads a case from text; `file` is what messages call it.
+Case parse_case(std::string_view text, const std::string& file);
+
+/// Where named cases live: validation/cases below the working directory, or else below the source tree of this build.
+std::filesystem::path case_directory();
+
+/// Names of all cases in case_directory(), sorted.
+std::vector<std::string> case_names();
+
+/// Resolves a path relative to the source root (the digest of a case) against the working directory or else the source
+/// tree of this build, whichever has it; returns it unchanged when neither has.
+std::filesystem::path resolve_in_source_tree(const std::filesystem::path& path);
+
+}  // namespace sluice

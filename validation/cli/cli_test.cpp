@@ -1,0 +1,148 @@
+// The program as its users meet it: exit codes, and what goes to which stream.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "validation/run_directory.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Answer {
+  int exit_code = 0;
+  std::string out;
+  std::string err;
+};
+
+std::string contents(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() {
+    const char* given = std::getenv("SLUICE_PROGRAM");
+    program = given != nullptr ? given : "build/release/sluice";
+    directory = fs::temp_directory_path() /
+                (std::string("sluice-cli-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(directory);
+    fs::create_directories(directory);
+  }
+  ~CommandLine() override { fs::remove_all(directory); }
+
+  Answer sluice(const std::string& arguments) const {
+    const fs::path out = directory / "stdout", err = directory / "stderr";
+    const int status =
+        std::system(fmt::format("{} {} >{} 2>{} </dev/null", program, arguments, out.string(), err.string()).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
+  }
+
+  std::string program;
+  fs::path directory;
+};
+
+TEST_F(CommandLine, HelpAndVersionGoToStdout) {
+  for (const char* arguments : {"--help", "list --help", "run --help", "validate --help", "report --help",
+                                "data --help", "data digest --help"}) {
+    const Answer answer = sluice(arguments);
+    EXPECT_EQ(answer.exit_code, 0) << arguments;
+    EXPECT_THAT(answer.out, HasSubstr("Example")) << arguments;
+    EXPECT_EQ(answer.err, "") << arguments;
+  }
+  EXPECT_THAT(sluice("--version").out, StartsWith("sluice "));
+}
+
+TEST_F(CommandLine, UsageErrorsAreTwo) {
+  for (const char* arguments :
+       {"", "bogus", "run", "run kleefsman --walls glass", "run kleefsman --l0 0.5", "run kleefsman --l0 two",
+        "run kleefsman alhpa=1", "run kleefsman --threads -1", "validate --tier none", "report", "data"}) {
+    const Answer answer = sluice(arguments);
+    EXPECT_EQ(answer.exit_code, 2) << arguments;
+    EXPECT_THAT(answer.err, StartsWith("sluice: error: ")) << arguments;
+    EXPECT_EQ(answer.out, "") << arguments;
+  }
+  EXPECT_THAT(sluice("validat").err, HasSubstr("did you mean `validate`?"));
+}
+
+TEST_F(CommandLine, FailuresAreOne) {
+  EXPECT_EQ(sluice("run no-such-case").exit_code, 1);
+  EXPECT_EQ(sluice("report " + (directory / "nowhere").string()).exit_code, 1);
+  const Answer large = sluice("run kleefsman --l0 0.0002 --dry-run");
+  EXPECT_EQ(large.exit_code, 1);
+  EXPECT_THAT(large.err, AllOf(StartsWith("sluice: error: "), HasSubstr("use --l0")));
+}
+
+TEST_F(CommandLine, ListShowsTheCaseAndItsData) {
+  EXPECT_THAT(sluice("list").out, AllOf(HasSubstr("kleefsman"), HasSubstr("P1 P2"), HasSubstr("digest.csv (present)")));
+}
+
+TEST_F(CommandLine, DryRunWritesNothing) {
+  const fs::path run = directory / "run";
+  const Answer answer = sluice("run kleefsman --l0 0.05 --dry-run --out " + run.string());
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_THAT(answer.out, HasSubstr("particles: "));
+  EXPECT_FALSE(fs::exists(run));
+}
+
+TEST_F(CommandLine, ARunLandsInItsDirectory) {
+  const fs::path run = directory / "run";
+  const std::string command = "run kleefsman --l0 0.05 --threads 1 t_end_s=0.02 --alpha 0.05 --out " + run.string();
+  const Answer answer = sluice(command);
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  const RunRecord record = read_run(run);
+  EXPECT_EQ(record.status(), "finished");
+  EXPECT_EQ(record.alpha(), 0.05);
+  EXPECT_EQ(record.number("t_end_s"), 0.02);
+  EXPECT_GE(record.probes.rows(), 20u);
+  EXPECT_TRUE(fs::exists(run / "log.txt"));
+  EXPECT_THAT(sluice(command).err, HasSubstr("--force"));
+  EXPECT_EQ(sluice(command + " --force").exit_code, 0);
+}
+
+// The whole path at its cheapest: both wall models, the report, and a verdict. So short a run proves nothing, and
+// `validate` must say so instead of passing it.
+TEST_F(CommandLine, ValidateOfATooShortRunDoesNotPass) {
+  std::string text = contents("validation/cases/kleefsman.toml");
+  const std::string quick = "l0_m = 0.03, t_end_s = 6.0";
+  ASSERT_NE(text.find(quick), std::string::npos);
+  text.replace(text.find(quick), quick.size(), "l0_m = 0.03, t_end_s = 0.005");
+  std::ofstream(directory / "short.toml") << text;
+  const Answer answer =
+      sluice(fmt::format("validate {0}/short.toml --threads 1 --runs {0}/runs --out {0}/report", directory.string()));
+  EXPECT_EQ(answer.exit_code, 1) << answer.err;
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("impulse_deviation P1 wall"), HasSubstr("missing (the run ends at 0.00"),
+                                HasSubstr("A BAND IS MISSED"), HasSubstr("for comparison only")));
+  EXPECT_TRUE(fs::exists(directory / "report" / "index.html"));
+}
+
+TEST_F(CommandLine, AnInterruptedRunKeepsItsResults) {
+  const fs::path run = directory / "run";
+  const std::string arguments = "run kleefsman --l0 0.05 --threads 1 --out " + run.string();
+  // SIGTERM, since a shell without job control starts programs in the background with SIGINT ignored.
+  const int status = std::system(
+      fmt::format("bash -c '{} {} 2>/dev/null & pid=$!; while ! grep -qs . {}/probes.csv; do sleep 0.1; done; "
+                  "kill -TERM $pid; wait $pid'",
+                  program, arguments, run.string())
+          .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 143);
+  const RunRecord record = read_run(run);
+  EXPECT_EQ(record.status(), "interrupted");
+  EXPECT_GT(record.probes.rows(), 0u);
+}
+
+}  // namespace
+}  // namespace sluice

@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "validation/case.h"
+#include "validation/cli/commands.h"
+
+namespace sluice::cli {
+namespace {
+
+std::string join_names(const Case& c, SensorKind kind) {
+  std::string names;
+  for (const CaseSensor& sensor : c.sensors)
+    if (sensor.kind == kind) names += (names.empty() ? "" : " ") + sensor.name;
+  return names.empty() ? "none" : names;
+}
+
+std::string solvers_of(const Case& c) {
+  std::string text;
+  for (const SolverOption& solver : c.solvers) {
+    text += (text.empty() ? "" : "; ") + solver.name + " (walls:";
+    for (const WallOption& walls : solver.walls)
+      text += " " + walls.name + (walls.name == solver.default_walls ? "*" : "");
+    text += ")";
+  }
+  return text;
+}
+
+std::string tiers_of(const Case& c) {
+  std::string text;
+  for (const Tier& tier : c.tiers)
+    text += fmt::format("{}{} (l0 = {:g} m)", text.empty() ? "" : ", ", tier.name, tier.l0_m);
+  return text;
+}
+
+std::string measured_of(const Case& c) {
+  if (c.measured.empty()) return "none";
+  const bool present = std::filesystem::exists(resolve_in_source_tree(c.measured));
+  return fmt::format("{} ({})", c.measured.string(), present ? "present" : "missing");
+}
+
+void print_case(const Case& c) {
+  fmt::print("{}: {}\n", c.name, c.title);
+  fmt::print("  wave probes:      {}\n", join_names(c, SensorKind::wave_height));
+  fmt::print("  pressure sensors: {}\n", join_names(c, SensorKind::pressure));
+  fmt::print("  measured series:  {}\n", measured_of(c));
+  fmt::print("  solvers:          {}\n", solvers_of(c));
+  fmt::print("  tiers:            {}\n", tiers_of(c));
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("list", "List the cases, with sensors and measured data");
+  command->footer("Example:\n  sluice list");
+  command->callback([&exit_code] {
+    for (const std::string& name : case_names()) print_case(load_case(name));
+    if (case_names().empty()) throw CaseError(fmt::format("no case in {}", case_directory().string()));
+    exit_code = 0;
+  });
+}
+
+}  // namespace sluice::cli

@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/report.h"
+#include "validation/acceptance.h"
+#include "validation/cli/commands.h"
+#include "validation/cli/usage_error.h"
+#include "validation/manifest.h"
+#include "validation/run.h"
+#include "validation/suggest.h"
+
+namespace sluice::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string case_name = "kleefsman";
+  std::string solver;
+  std::string tier = "quick";
+  std::string out = "reports/out";
+  std::string runs = "runs";
+  int threads = 0;
+  bool reuse = false;
+};
+
+const char* const footer =
+    "Runs the case at the tier with every wall model: those with acceptance rows are judged, the others stand beside "
+    "them\n"
+    "in the report. Runs land in runs/validate-TIER-...; exit code 1 when a band is missed.\n\n"
+    "Examples:\n"
+    "  sluice validate --tier quick\n"
+    "  sluice validate --tier standard --threads 2 --out reports/standard";
+
+const Tier& find_tier(const Case& c, const std::string& name) {
+  if (const Tier* tier = c.find_tier(name)) return *tier;
+  std::vector<std::string> names;
+  for (const Tier& tier : c.tiers) names.push_back(tier.name);
+  throw UsageError(fmt::format("--tier: case {} has no tier `{}`{}", c.name, name, suggestion(name, names)));
+}
+
+const SolverOption& find_solver(const Case& c, const std::string& name) {
+  if (const SolverOption* solver = c.find_solver(name)) return *solver;
+  std::vector<std::string> names;
+  for (const SolverOption& solver : c.solvers) names.push_back(solver.name);
+  throw UsageError(fmt::format("--solver: case {} has no solver `{}`{}", c.name, name, suggestion(name, names)));
+}
+
+std::optional<MeasuredData> load_measured(const Case& c) {
+  const fs::path file = resolve_in_source_tree(c.measured);
+  if (c.measured.empty() || !fs::exists(file)) return std::nullopt;
+  return MeasuredData::load(file);
+}
+
+// With --reuse a finished run of this very build and case is not computed again.
+bool is_current(const Case& c, const fs::path& directory) {
+  if (!fs::exists(directory / "run.json")) return false;
+  const RunRecord record = read_run(directory);
+  const std::string commit = record.text("commit").value_or("");
+  return record.status() == "finished" && commit == build_info().commit && !commit.ends_with("-dirty") &&
+         record.text("case_hash") == c.hash;
+}
+
+// Exit code of the run: 0, or what ends `validate` too.
+int run_once(const Case& c, const Arguments& arguments, const RunRequest& request, const fs::path& directory) {
+  if (arguments.reuse && is_current(c, directory)) {
+    fmt::print(stderr, "{}: reused\n", directory.string());
+    return 0;
+  }
+  RunOptions options;
+  options.out = directory;
+  options.force = true;  // the directory is this command's own
+  options.progress = stderr;
+  options.terminal = isatty(STDERR_FILENO) == 1;
+  const RunOutcome outcome = run_case(c, resolve_settings(c, request), options);
+  if (outcome.status == "failed") fmt::print(stderr, "sluice: error: {}: {}\n", directory.string(), outcome.error);
+  return outcome.exit_code;
+}
+
+// The default wall model first: if time runs out, it is what counts.
+std::vector<std::string> walls_in_order(const SolverOption& solver) {
+  std::vector<std::string> names{solver.default_walls};
+  for (const WallOption& walls : solver.walls)
+    if (walls.name != solver.default_walls) names.push_back(walls.name);
+  return names;
+}
+
+bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
+  const std::optional<MeasuredData> measured = load_measured(c);
+  if (!measured) fmt::print(stderr, "sluice: warning: measured data missing: {}\n", c.measured.string());
+  bool passed = true;
+  bool judged = false;
+  for (const fs::path& directory : directories) {
+    const RunRecord record = read_run(directory);
+    const auto checks = check_acceptance(c, record, measured ? &*measured : nullptr);
+    const bool applicable = std::any_of(checks.begin(), checks.end(), [](const AcceptanceCheck& check) {
+      return check.verdict != AcceptanceVerdict::not_applicable;
+    });
+    if (!applicable) {
+      fmt::print("{}: {}: no acceptance rows, for comparison only\n", directory.string(), record.label());
+      continue;
+    }
+    judged = true;
+    const bool ok = all_passed(checks);
+    fmt::print("{}: {}\n{}{}\n", directory.string(), record.label(), acceptance_table(checks),
+               ok ? "all bands hold" : "A BAND IS MISSED");
+    passed = passed && ok;
+  }
+  if (!judged) fmt::print("no acceptance row applies to any of these runs\n");
+  return passed && judged;
+}
+
+int validate(const Arguments& arguments) {
+  const Case c = load_case(arguments.case_name);
+  const Tier& tier = find_tier(c, arguments.tier);
+  const SolverOption& solver = find_solver(c, arguments.solver.empty() ? c.default_solver : arguments.solver);
+  std::vector<fs::path> directories;
+  bool any_failed = false;
+  for (const std::string& walls : walls_in_order(solver)) {
+    RunRequest request;
+    request.solver = solver.name;
+    request.walls = walls;
+    request.l0_m = tier.l0_m;
+    request.threads = arguments.threads;
+    request.snapshots = walls == solver.default_walls;
+    request.overrides = {{"t_end_s", tier.t_end_s}};
+    directories.push_back(fs::path(arguments.runs) /
+                          fmt::format("validate-{}-{}-{}-{}", tier.name, c.name, solver.name, walls));
+    const int code = run_once(c, arguments, request, directories.back());
+    if (code > 128) return code;
+    any_failed = any_failed || code != 0;
+  }
+  const bool passed = print_acceptance(c, directories);
+  std::fflush(stdout);
+  write_report(directories, arguments.out);
+  fmt::print("report: {}\n", (fs::path(arguments.out) / "index.html").string());
+  return passed && !any_failed ? 0 : 1;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("validate", "Run a case at a tier, report it, and judge it by its acceptance bands");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("CASE", arguments->case_name, "Case")->capture_default_str();
+  command->add_option("--solver", arguments->solver, "Solver (default: the case's first)");
+  command->add_option("--tier", arguments->tier, "Resolution: a tier of the case")->capture_default_str();
+  command->add_option("--threads", arguments->threads, "Threads (default: all processors)")->check(CLI::Range(1, 1024));
+  command->add_option("--out", arguments->out, "Directory of the report")->capture_default_str();
+  command->add_option("--runs", arguments->runs, "Directory of the runs")->capture_default_str();
+  command->add_flag("--reuse", arguments->reuse, "Keep finished runs of the same commit and case file");
+  command->footer(footer);
+  command->callback([arguments, &exit_code] { exit_code = validate(*arguments); });
+}
+
+}  // namespace sluice::cli

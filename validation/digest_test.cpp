@@ -1,0 +1,268 @@
+#include "validation/digest.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include "validation/file_hash.h"
+#include "validation/measured.h"
+#include "validation/metrics.h"
+#include "validation/text_table.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Window whole{0, 6};
+const fs::path kleefsman = "data/kleefsman2005";
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What a call complains of; "no complaint" if nothing.
+template <class Call>
+std::string complaint(const Call& call) {
+  try {
+    call();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+class DigestFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / (std::string("sluice_digest_") + test->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+
+  fs::path folder_;
+};
+
+constexpr const char* small_source = R"(raw_file = "raw.dat"
+header_lines = 1
+header = "t a b"
+separator = "blank"
+column_count = 3
+time_column = 1
+time_scale = 0.001
+bin_s = 0.01
+smoothing_s = 0.004
+[[columns]]
+number = 3
+raw_name = "b"
+name = "P1"
+unit = "Pa"
+scale = 1000
+mean_decimals = 3
+extreme_decimals = 1
+[[columns]]
+number = 2
+raw_name = "a"
+name = "H1"
+unit = "m"
+mean_decimals = 4
+extreme_decimals = 2
+)";
+
+/// 31 rows at whole milliseconds; a is the time in ms, b the time in ms / 1000, less 0.005.
+std::string small_raw() {
+  std::string text = "t a b\n";
+  for (int i = 0; i <= 30; ++i)
+    text += std::to_string(i) + " " + std::to_string(i) + "  " + std::to_string(i * 1e-3 - 0.005) + "\n";
+  return text;
+}
+
+TEST_F(DigestFolder, BinsHoldMeanExtremesAndSmoothedMaximumUnderTheirNewNamesAndUnits) {
+  write("source.toml", small_source);
+  write("raw.dat", small_raw());
+  const auto out = make_digest(folder_, folder_);
+  EXPECT_EQ(text_of(out),
+            "t_s,P1_mean_Pa,P1_min_Pa,P1_max_Pa,P1_max4ms_Pa,H1_mean_m,H1_min_m,H1_max_m,H1_max4ms_m\n"
+            "0.005,0.000,-5.0,4.0,4.0,5.0000,0.00,9.00,9.00\n"
+            "0.015,10.000,5.0,14.0,14.0,15.0000,10.00,19.00,19.00\n"
+            "0.025,20.000,15.0,24.0,24.0,25.0000,20.00,29.00,29.00\n");
+  const auto data = MeasuredData::load(out);
+  EXPECT_EQ(data.names(), (std::vector<std::string>{"P1", "H1"}));
+  EXPECT_NEAR(data.series("P1").bin_s, 0.01, 1e-12);
+  EXPECT_NEAR(data.series("P1").smoothing_s, 0.004, 1e-12);
+  EXPECT_EQ(data.series("H1").smoothed_maximum, (std::vector<double>{9, 19, 29}));
+  EXPECT_EQ(data.hash(), file_hash(out));
+}
+
+TEST_F(DigestFolder, ABinThatIsHardlyCoveredIsLeftOut) {
+  write("source.toml", small_source);
+  std::string raw = small_raw();
+  raw.resize(raw.rfind("\n30 ") + 1);  // the last bin now ends at 29 ms: nine tenths are there
+  write("raw.dat", raw);
+  EXPECT_EQ(MeasuredData::load(make_digest(folder_, folder_)).series("P1").t_s.size(), 3u);
+  raw.resize(raw.rfind("\n29 ") + 1);
+  write("raw.dat", raw);
+  EXPECT_EQ(MeasuredData::load(make_digest(folder_, folder_)).series("P1").t_s.size(), 2u);
+}
+
+TEST_F(DigestFolder, ARawFileThatIsNotTheOneDescribedIsRefused) {
+  const auto raw = (folder_ / "raw.dat").string();
+  const auto digest = [&] { make_digest(folder_, folder_); };
+  write("source.toml", small_source);
+  EXPECT_EQ(complaint(digest).substr(0, raw.size() + 18), raw + ": no such raw file");
+  write("raw.dat", "t b a\n0 1 2\n1 1 2\n");
+  EXPECT_EQ(complaint(digest).substr(0, raw.size() + 44), raw + ":1: the header is not the one described (\"t ");
+  write("raw.dat", "t a b\n0 1 2\n1 1\n");
+  EXPECT_EQ(complaint(digest).substr(0, raw.size() + 36), raw + ":3: 2 fields where 3 columns are nam");
+  write("raw.dat", "t a b\n0 1 2\n1 1 NaN\n");
+  EXPECT_EQ(complaint(digest), raw + ":3: column 3 (b): NaN is not finite; leave the row out");
+  write("source.toml", std::string("raw_hash = \"fnv1a64:0\"\n") + small_source);
+  EXPECT_NE(complaint(digest).find("not fnv1a64:0 of the file described"), std::string::npos);
+}
+
+TEST_F(DigestFolder, ADescriptionThatMakesNoSenseNamesItsLineAndKey) {
+  const auto toml = (folder_ / "source.toml").string();
+  const auto load = [&] { load_digest_source(toml); };
+  std::string text = small_source;
+  write("source.toml", text.replace(text.find("\"blank\""), 7, "\"pipe\""));
+  EXPECT_EQ(complaint(load).substr(0, toml.size() + 30), toml + ":4: separator: \"pipe\" is not k");
+  text = small_source;
+  write("source.toml", text.replace(text.find("number = 3"), 10, "number = 4"));
+  EXPECT_EQ(complaint(load).substr(0, toml.size() + 24), toml + ":11: columns[0].number: ");
+  write("source.toml", std::string("colour = \"red\"\n") + small_source);
+  EXPECT_EQ(complaint(load).substr(0, toml.size() + 11), toml + ":1: colour:");
+  write("source.toml", "raw_file = \n");
+  EXPECT_EQ(complaint(load).substr(0, toml.size() + 3), toml + ":1:");
+}
+
+TEST_F(DigestFolder, WhatIsNoDigestIsRefused) {
+  const auto path = (folder_ / "digest.csv").string();
+  const auto load = [&] { MeasuredData::load(path); };
+  write("digest.csv", "t_s,P1_Pa\n0,1\n1,2\n");
+  EXPECT_EQ(complaint(load), path + ":1: no column <name>_mean_<unit>; this is not a digest");
+  write("digest.csv", "t_s,P1_mean_Pa,P1_min_Pa\n0,1,1\n1,2,2\n");
+  EXPECT_EQ(complaint(load).substr(0, path.size() + 32), path + ":1: column P1_max_Pa is missing;");
+  write("digest.csv", "t_s,P1_mean_Pa,P1_min_Pa,P1_max_Pa\n0,1,1,1\n1,1,1,1\n3,1,1,1\n");
+  EXPECT_EQ(complaint(load).substr(0, path.size() + 30), path + ":3: t_s: the bin at 1 s is not");
+  write("digest.csv", "t_s,P1_mean_Pa,P1_min_Pa,P1_max_Pa\n0,1,1,1\n1,1,2,1\n");
+  EXPECT_EQ(complaint(load).substr(0, path.size() + 30), path + ":3: P1: minimum 2 over maximum");
+  write("digest.csv", "t_s,P1_mean_Pa,P1_min_Pa,P1_max_Pa\n0,1,1,1\n1,1,1,1\n");
+  EXPECT_EQ(complaint([&] { MeasuredData::load(path).series("P2"); }), path + ": no series P2; there are: P1");
+}
+
+struct KnownPressure {
+  const char* sensor;
+  double impulse_Pa_s;
+  double peak_Pa;
+  double peak_time_s;
+};
+
+/// Of the raw file, by the trapezoid rule with the value at 6 s interpolated; where a peak was not noted down, zero.
+constexpr KnownPressure known_pressures[] = {{"P1", 13391.65, 11239.4, 0.4150},
+                                             {"P2", 10961.15, 8127.5, 0.4260},
+                                             {"P3", 9500.06, 6563.9, 0.4590},
+                                             {"P4", 7088.09, 7202.6, 0.4550},
+                                             {"P5", 2807.15, 0, 0},
+                                             {"P6", 3029.65, 0, 0},
+                                             {"P7", 3337.11, 0, 0},
+                                             {"P8", 2933.23, 0, 0}};
+
+TEST(KleefsmanDigest, KeepsTheImpulsesAndPeaksOfTheMeasurement) {
+  const auto data = MeasuredData::load(kleefsman / "digest.csv");
+  for (const auto& known : known_pressures) {
+    const auto& series = data.series(known.sensor);
+    EXPECT_EQ(series.unit, "Pa");
+    EXPECT_NEAR(series.bin_s, 0.005, 1e-9);
+    EXPECT_NEAR(*impulse(series, whole), known.impulse_Pa_s, 0.01) << known.sensor;
+    if (known.peak_Pa == 0) continue;
+    EXPECT_NEAR(peak(series, whole)->value, known.peak_Pa, 0.051) << known.sensor;
+    EXPECT_NEAR(peak(series, whole)->time_s, known.peak_time_s, 0.0026) << known.sensor;
+  }
+}
+
+TEST(KleefsmanDigest, KeepsArrivalAndSmoothedPeakAtP1) {
+  const auto data = MeasuredData::load(kleefsman / "digest.csv");
+  EXPECT_NEAR(*arrival_at_fraction_of_peak(data.series("P1"), whole), 0.3935, 0.001);
+  EXPECT_NEAR(smoothed_peak(data.series("P1"), whole, 0.01)->value, 10100.8, 0.1);
+}
+
+TEST(KleefsmanDigest, NumbersTheWaveProbesAsTheDrawingDoes) {
+  // The wave comes from the gate: H4 stands in the water, then H3 (x = 1.488 m), H2 and H1 (0.496 m) get wet.
+  const auto data = MeasuredData::load(kleefsman / "digest.csv");
+  const auto wet_at = [&](const char* probe) { return arrival_time(data.series(probe), whole, 0.01); };
+  EXPECT_NEAR(*wet_at("H3"), 0.194, 0.005);
+  EXPECT_NEAR(*wet_at("H1"), 0.918, 0.005);
+  EXPECT_LT(*wet_at("H3"), *wet_at("H2"));
+  EXPECT_LT(*wet_at("H2"), *wet_at("H1"));
+  EXPECT_FALSE(wet_at("H4"));
+  EXPECT_NEAR(data.series("H4").mean.front(), 0.549, 0.001);
+}
+
+class KleefsmanRaw : public DigestFolder {
+ protected:
+  void SetUp() override {
+    raw_ = raw_data_folder() / "kleefsman2005/test_case_2_exp_data.dat";
+    if (!fs::exists(raw_)) {
+      GTEST_SKIP() << "the raw measurement is not part of the project and " << raw_.string()
+                   << " is not there; set SLUICE_RAW_DATA to the folder of raw data";
+    }
+    DigestFolder::SetUp();
+  }
+
+  fs::path raw_;
+};
+
+TEST_F(KleefsmanRaw, RebuildsTheDigestByteForByte) {
+  const auto source = load_digest_source(kleefsman / "source.toml");
+  EXPECT_EQ(file_hash(raw_), source.raw_hash);
+  make_digest(source, raw_, folder_ / "digest.csv");
+  EXPECT_TRUE(text_of(folder_ / "digest.csv") == text_of(kleefsman / "digest.csv"))
+      << "data/kleefsman2005/digest.csv is not what source.toml and the raw file give; run \"sluice data digest\"";
+}
+
+TEST_F(KleefsmanRaw, TheMetricsOfTheUnbinnedSeriesAreTheKnownAnswers) {
+  TextTableReader reader(raw_);
+  reader.next_header_line();
+  std::vector<std::string> names{"t"};
+  for (int k = 1; k <= 12; ++k) names.push_back(std::to_string(k));
+  const auto columns = reader.read_rows(names, ' ', 0);
+  for (std::size_t k = 0; k < std::size(known_pressures); ++k) {
+    const auto& known = known_pressures[k];
+    const Series series{known.sensor, "Pa", columns[0], columns[k + 1]};
+    EXPECT_NEAR(*impulse(series, whole), known.impulse_Pa_s, 0.005) << known.sensor;
+    if (known.peak_Pa == 0) continue;
+    EXPECT_NEAR(peak(series, whole)->value, known.peak_Pa, 0.051) << known.sensor;
+    EXPECT_NEAR(peak(series, whole)->time_s, known.peak_time_s, 0.00051) << known.sensor;
+  }
+}
+
+TEST_F(KleefsmanRaw, ComparedWithItsOwnDigestDeviatesByNothing) {
+  TextTableReader reader(raw_);
+  reader.next_header_line();
+  const std::vector<std::string> names(13, "raw");
+  const auto columns = reader.read_rows(names, ' ', 0);
+  const auto data = MeasuredData::load(kleefsman / "digest.csv");
+  const Comparison c = compare({"P1", "Pa", columns[0], columns[1]}, data.series("P1"), whole);
+  EXPECT_NEAR(*c.arrival_s.difference(), 0, 0.001);
+  EXPECT_NEAR(*c.peak.difference(), 0, 0.051);
+  EXPECT_NEAR(*c.smoothed_peak.difference(), 0, 0.051);
+  EXPECT_NEAR(*c.impulse.difference(), 0, 0.01);
+  EXPECT_NEAR(*c.rmse, 0, 0.006);  // the digest's rounding
+  EXPECT_NEAR(*c.lag_s, 0, 0.0005);
+  EXPECT_GT(*c.correlation, 0.999);
+  EXPECT_TRUE(c.remarks.empty());
+}
+
+}  // namespace
+}  // namespace sluice

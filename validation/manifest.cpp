@@ -1,0 +1,62 @@
+#include "validation/manifest.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <stdexcept>
+
+namespace sluice {
+
+std::string cpu_model() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with("model name")) continue;
+    const auto colon = line.find(": ");
+    if (colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+std::int64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+double cpu_time_s() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::string utc_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+void write_manifest(const std::filesystem::path& directory, const nlohmann::json& manifest) {
+  const std::filesystem::path target = directory / "run.json";
+  const std::filesystem::path half = directory / "run.json.tmp";
+  std::ofstream out(half, std::ios::binary | std::ios::trunc);
+  out << manifest.dump(2) << '\n';
+  out.close();
+  if (!out)
+    throw std::runtime_error(fmt::format("{}: cannot be written: {} (free some space or choose another --out)",
+                                         half.string(), std::strerror(errno)));
+  std::error_code error;
+  std::filesystem::rename(half, target, error);
+  if (error) throw std::runtime_error(fmt::format("{}: cannot be replaced: {}", target.string(), error.message()));
+}
+
+}  // namespace sluice

@@ -1,0 +1,176 @@
+#include "validation/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/curve.h"
+
+namespace sluice {
+
+bool covers(const Curve& curve, Window window) {
+  const auto n = curve.t_s.size();
+  if (n < 2 || window.end_s <= window.begin_s) return false;
+  // One interval is what a recording may lack at an end; the little more is for rounding of the stamps.
+  const double slack_begin = 1.000001 * (curve.t_s[1] - curve.t_s[0]);
+  const double slack_end = 1.000001 * (curve.t_s[n - 1] - curve.t_s[n - 2]);
+  return curve.t_s.front() - window.begin_s <= slack_begin && window.end_s - curve.t_s.back() <= slack_end &&
+         curve.t_s.front() < window.end_s && curve.t_s.back() > window.begin_s;
+}
+
+std::optional<Window> common_window(const Curve& a, const Curve& b, Window window) {
+  const Window common = clipped(a, clipped(b, window));
+  if (common.end_s <= common.begin_s) return std::nullopt;
+  return common;
+}
+
+std::optional<double> value_at(const Curve& curve, double t_s) {
+  if (curve.t_s.empty() || t_s < curve.t_s.front() || t_s > curve.t_s.back()) return std::nullopt;
+  const auto right = first_at_or_after(curve, t_s);
+  const auto left = right == 0 ? 0 : right - 1;
+  return values_at({curve.t_s.subspan(left, right - left + 1), curve.value.subspan(left, right - left + 1)}, {t_s})[0];
+}
+
+std::optional<Peak> peak(const Curve& curve, Window window) {
+  if (!covers(curve, window)) return std::nullopt;
+  return largest_sample(curve, window);
+}
+
+std::optional<Peak> peak(const MeasuredSeries& series, Window window) {
+  if (!covers(series, window)) return std::nullopt;
+  return largest_sample({series.t_s, series.maximum}, window);
+}
+
+Series running_mean(const Series& series, double window_s) {
+  Series mean{series.name, series.unit, series.t_s, series.value};
+  if (series.t_s.size() < 2) return mean;
+  const CumulativeIntegral integral(series);
+  for (std::size_t i = 1; i + 1 < series.t_s.size(); ++i) {
+    const double t = series.t_s[i];
+    const double half = std::min({0.5 * window_s, t - series.t_s.front(), series.t_s.back() - t});
+    if (half > 0) mean.value[i] = integral.between(t - half, t + half) / (2 * half);
+  }
+  return mean;
+}
+
+Series running_mean(const MeasuredSeries& series, double window_s) {
+  Series mean{series.name, series.unit, {}, {}};
+  if (series.t_s.empty()) return mean;
+  // The integral of a series of means is known exactly at the edges and linear between them: a curve of its own.
+  std::vector<double> edges{bin(series, 0).begin_s};
+  std::vector<double> integral{0};
+  for (std::size_t k = 0; k < series.t_s.size(); ++k) {
+    edges.push_back(bin(series, k).end_s);
+    integral.push_back(integral.back() + series.mean[k] * series.bin_s);
+  }
+  const Curve upto(edges, integral);
+  const double rounding = 1e-6 * series.bin_s;
+  const double half = 0.5 * window_s;
+  for (const double edge : edges) {
+    if (edge - half < edges.front() - rounding || edge + half > edges.back() + rounding) continue;
+    const double begin = value_at(upto, std::max(edge - half, edges.front())).value();
+    const double end = value_at(upto, std::min(edge + half, edges.back())).value();
+    mean.t_s.push_back(edge);
+    mean.value.push_back((end - begin) / window_s);
+  }
+  return mean;
+}
+
+std::optional<Peak> smoothed_peak(const Series& series, Window window, double smoothing_s) {
+  if (!covers(series, window)) return std::nullopt;
+  return largest_sample(running_mean(series, smoothing_s), window);
+}
+
+std::optional<Peak> smoothed_peak(const MeasuredSeries& series, Window window, double smoothing_s) {
+  if (!covers(series, window)) return std::nullopt;
+  if (!series.smoothed_maximum.empty() && std::abs(series.smoothing_s - smoothing_s) < 1e-6) {
+    return largest_sample({series.t_s, series.smoothed_maximum}, window);
+  }
+  return largest_sample(running_mean(series, smoothing_s), window);
+}
+
+std::optional<double> arrival_time(const Curve& curve, Window window, double threshold) {
+  const auto n = curve.t_s.size();
+  // Only the beginning has to be there: what comes after the crossing does not matter.
+  if (n < 2 || !covers(curve, {window.begin_s, std::min(window.end_s, curve.t_s.back())})) return std::nullopt;
+  const double begin = std::max(window.begin_s, curve.t_s.front());
+  double t0 = begin;
+  double v0 = value_at(curve, begin).value();
+  if (v0 >= threshold) return std::nullopt;
+  for (auto i = first_at_or_after(curve, begin); i < n; ++i) {
+    const double t1 = curve.t_s[i];
+    const double v1 = curve.value[i];
+    if (v1 >= threshold) {
+      const double t = t0 + (t1 - t0) * (threshold - v0) / (v1 - v0);
+      return t <= window.end_s ? std::optional(t) : std::nullopt;
+    }
+    if (t1 > window.end_s) break;
+    t0 = t1;
+    v0 = v1;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> arrival_at_fraction_of_peak(const Curve& curve, Window window, double fraction) {
+  const auto top = peak(curve, window);
+  if (!top) return std::nullopt;
+  return arrival_time(curve, window, fraction * top->value);
+}
+
+namespace {
+
+/// Where in a bin, 0..1, a series passes the threshold that its minimum and maximum enclose, taken to rise in a
+/// straight ramp from the one to the other that begins late or ends early in the bin, so as to give the bin's mean.
+double crossing_in_bin(double minimum, double mean, double maximum, double threshold) {
+  if (threshold <= minimum) return 0;
+  const double filled = (mean - minimum) / (maximum - minimum);
+  const double level = (threshold - minimum) / (maximum - minimum);
+  const double ramp_begin = std::max(0.0, 1 - 2 * filled);
+  const double ramp_end = std::min(1.0, 2 - 2 * filled);
+  return ramp_begin + level * (ramp_end - ramp_begin);
+}
+
+}  // namespace
+
+std::optional<double> arrival_time(const MeasuredSeries& series, Window window, double threshold) {
+  if (!covers(series, {window.begin_s, window.begin_s})) return std::nullopt;
+  const Curve maxima(series.t_s, series.maximum);
+  const auto first = first_at_or_after(maxima, window.begin_s);
+  for (auto k = first; k < series.t_s.size() && series.t_s[k] <= window.end_s; ++k) {
+    if (series.maximum[k] < threshold) continue;
+    if (k == first) return std::nullopt;
+    const double share = crossing_in_bin(series.minimum[k], series.mean[k], series.maximum[k], threshold);
+    return bin(series, k).begin_s + share * series.bin_s;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> arrival_at_fraction_of_peak(const MeasuredSeries& series, Window window, double fraction) {
+  const auto top = peak(series, window);
+  if (!top) return std::nullopt;
+  return arrival_time(series, window, fraction * top->value);
+}
+
+std::optional<double> impulse(const Curve& curve, Window window) {
+  if (!covers(curve, window)) return std::nullopt;
+  return CumulativeIntegral(curve).between(window.begin_s, window.end_s);
+}
+
+std::optional<double> impulse(const MeasuredSeries& series, Window window) {
+  if (!covers(series, window)) return std::nullopt;
+  double sum = 0;
+  for (std::size_t k = 0; k < series.t_s.size(); ++k) sum += series.mean[k] * shared_s(bin(series, k), window);
+  return sum;
+}
+
+std::optional<double> relative_deviation(std::optional<double> simulated, std::optional<double> measured) {
+  if (!simulated || !measured || *measured == 0) return std::nullopt;
+  return (*simulated - *measured) / *measured;
+}
+
+std::optional<double> unsigned_relative_deviation(std::optional<double> simulated, std::optional<double> measured) {
+  const auto deviation = relative_deviation(simulated, measured);
+  if (!deviation) return std::nullopt;
+  return std::abs(*deviation);
+}
+
+}  // namespace sluice

@@ -1,0 +1,139 @@
+#include "validation/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+namespace sluice {
+namespace {
+
+// Memory: the solver's own target is 200 bytes a particle; the scene (positions in double precision) lives beside it
+// while the solver is set up, and the process itself takes some.
+constexpr double bytes_per_particle = 200;
+constexpr double scene_bytes_per_particle = 40;
+constexpr std::int64_t process_bytes = 64 << 20;
+
+// The mean time step is shorter than Cr h / c0, for the velocity differences between neighbours: the paper's Table 1
+// gives 3.8e-5 s where Cr h / c0 is 4.84e-5 s.
+constexpr double time_step_over_acoustic = 0.8;
+
+// Fluid particle-steps a second and thread, whole steps in disordered flow at l0 = 0.02 m; bench/ measures them.
+constexpr double rate_dynamic_walls = 3.2e6;
+constexpr double rate_extrapolated_walls = 2.6e6;
+
+std::optional<std::int64_t> read_number(const char* file) {
+  std::ifstream in(file);
+  std::int64_t value = 0;
+  if (in >> value) return value;
+  return std::nullopt;  // absent, or the word "max"
+}
+
+std::optional<std::int64_t> system_available_bytes() {
+  std::ifstream in("/proc/meminfo");
+  for (std::string key, unit; in >> key;) {
+    std::int64_t kibibytes = 0;
+    in >> kibibytes >> unit;
+    if (key == "MemAvailable:") return kibibytes * 1024;
+  }
+  return std::nullopt;
+}
+
+// Version 2 of control groups, or else version 1, as seen from inside a container.
+std::optional<std::int64_t> group_available_bytes() {
+  auto limit = read_number("/sys/fs/cgroup/memory.max");
+  auto used = read_number("/sys/fs/cgroup/memory.current");
+  if (!limit) {
+    limit = read_number("/sys/fs/cgroup/memory/memory.limit_in_bytes");
+    used = read_number("/sys/fs/cgroup/memory/memory.usage_in_bytes");
+  }
+  if (!limit || !used) return std::nullopt;
+  return std::max<std::int64_t>(0, *limit - *used);
+}
+
+std::int64_t memory_for(const ParticleCounts& n) {
+  const double bytes =
+      (static_cast<double>(n.fluid) + static_cast<double>(n.solid)) * (bytes_per_particle + scene_bytes_per_particle);
+  return static_cast<std::int64_t>(std::min(bytes, 9e18)) + process_bytes;
+}
+
+double expected_time_step_s(const RunSettings& settings) {
+  const auto& p = settings.parameters;
+  const double h_m = 0.5 * p.at("kernel_radius_over_distance") * settings.l0_m;
+  return time_step_over_acoustic * p.at("courant") * h_m / p.at("speed_of_sound_m_s");
+}
+
+// Smallest particle distance, in steps of 2 %, whose memory fits; rounded up to three figures for people.
+double fitting_l0_m(const Case& c, const RunSettings& settings, std::int64_t available_bytes) {
+  double l0_m = settings.l0_m;
+  while (l0_m < 1) {
+    l0_m *= 1.02;
+    if (!particle_distance_problem(c, l0_m).empty()) return 0;
+    if (memory_for(count_particles(scene_description(c, l0_m, settings.wall_layers))) <= available_bytes) break;
+  }
+  const double scale = std::pow(10, 2 - std::floor(std::log10(l0_m)));
+  return std::ceil(l0_m * scale) / scale;
+}
+
+}  // namespace
+
+Plan plan_run(const Case& c, const RunSettings& settings) {
+  Plan plan;
+  plan.particles = count_particles(scene_description(c, settings.l0_m, settings.wall_layers));
+  plan.memory_bytes = memory_for(plan.particles);
+  plan.dt_s = expected_time_step_s(settings);
+  plan.steps = std::ceil(settings.t_end_s / plan.dt_s);
+  const double rate = settings.walls == "dynamic" ? rate_dynamic_walls : rate_extrapolated_walls;
+  plan.wall_time_s = static_cast<double>(plan.particles.fluid) * plan.steps / (rate * settings.threads);
+  return plan;
+}
+
+std::optional<std::int64_t> available_memory_bytes() {
+  const auto system = system_available_bytes();
+  const auto group = group_available_bytes();
+  if (!system) return group;
+  if (!group) return system;
+  return std::min(*system, *group);
+}
+
+void refuse_if_too_large(const Case& c, const RunSettings& settings, const Plan& plan,
+                         std::optional<std::int64_t> available_bytes) {
+  if (!available_bytes || plan.memory_bytes <= *available_bytes) return;
+  const double l0_m = fitting_l0_m(c, settings, *available_bytes);
+  const std::string remedy = l0_m > 0
+                                 ? fmt::format("use --l0 {:g} or more, or free some memory", l0_m)
+                                 : "free some memory: the coarsest particles that resolve the case do not fit either";
+  throw std::runtime_error(fmt::format("l0 = {:g} m needs about {} of memory, {} are available ({})", settings.l0_m,
+                                       human_bytes(static_cast<double>(plan.memory_bytes)),
+                                       human_bytes(static_cast<double>(*available_bytes)), remedy));
+}
+
+std::string describe(const Plan& plan, std::optional<std::int64_t> available_bytes) {
+  const std::string available =
+      available_bytes ? human_bytes(static_cast<double>(*available_bytes)) : std::string("unknown");
+  return fmt::format(
+      "particles: {} fluid, {} solid; memory: about {} (available: {})\n"
+      "expected: {:.0f} steps of {:.3g} s, about {}\n",
+      plan.particles.fluid, plan.particles.solid, human_bytes(static_cast<double>(plan.memory_bytes)), available,
+      plan.steps, plan.dt_s, human_time(plan.wall_time_s));
+}
+
+std::string human_bytes(double bytes) {
+  if (bytes >= 1e9) return fmt::format("{:.1f} GB", bytes / 1e9);
+  if (bytes >= 1e6) return fmt::format("{:.0f} MB", bytes / 1e6);
+  return fmt::format("{:.0f} kB", bytes / 1e3);
+}
+
+std::string human_time(double seconds) {
+  if (!std::isfinite(seconds)) return "unknown";
+  const auto s = static_cast<long long>(std::llround(std::min(seconds, 1e12)));
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  if (s < 86400) return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
+  return fmt::format("{} d {:02} h", s / 86400, s / 3600 % 24);
+}
+
+}  // namespace sluice

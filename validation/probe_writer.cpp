@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "validation/series.h"
+
+namespace sluice {
+
+namespace {
+
+constexpr std::size_t buffer_limit_bytes = 1 << 20;
+constexpr std::chrono::seconds flush_interval{1};
+
+}  // namespace
+
+ProbeWriter::ProbeWriter(std::filesystem::path path, std::vector<std::string> names)
+    : path_(std::move(path)), names_(std::move(names)), last_flush_(std::chrono::steady_clock::now()) {
+  file_ = std::fopen(path_.c_str(), "wb");
+  if (!file_) {
+    throw std::runtime_error(fmt::format("{}: cannot be written ({}); check that its folder exists and is writable",
+                                         path_.string(), std::generic_category().message(errno)));
+  }
+  // Rows are gathered in buffer_, so that each write to the file ends with a whole row.
+  std::setvbuf(file_, nullptr, _IONBF, 0);
+  buffer_ = "t_s";
+  for (const auto& name : names_) buffer_ += "," + name;
+  buffer_ += '\n';
+  try {
+    flush();
+  } catch (...) {
+    if (file_) std::fclose(std::exchange(file_, nullptr));
+    throw;
+  }
+}
+
+ProbeWriter::~ProbeWriter() {
+  try {
+    close();
+  } catch (const std::exception&) {
+    // Whoever wants to know calls close().
+  }
+}
+
+void ProbeWriter::append(double t_s, std::span<const double> values) {
+  if (!file_) throw std::logic_error(fmt::format("{}: a row after the file was closed", path_.string()));
+  if (values.size() != names_.size()) {
+    throw std::invalid_argument(
+        fmt::format("{}: {} values for {} columns", path_.string(), values.size(), names_.size()));
+  }
+  if (!std::isfinite(t_s) || (rows_ > 0 && t_s <= last_t_s_)) {
+    throw std::invalid_argument(fmt::format("{}: time {} s after {} s", path_.string(), t_s, last_t_s_));
+  }
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!std::isfinite(values[k])) {
+      throw std::runtime_error(
+          fmt::format("{}: {} is {} at t = {} s: the simulation has diverged; rows up to then are kept", path_.string(),
+                      names_[k], values[k], t_s));
+    }
+  }
+  // Nine digits carry every single-precision value; times need more to stay apart.
+  fmt::format_to(std::back_inserter(buffer_), "{:.12g}", t_s);
+  for (const double value : values) fmt::format_to(std::back_inserter(buffer_), ",{:.9g}", value);
+  buffer_ += '\n';
+  last_t_s_ = t_s;
+  ++rows_;
+  if (buffer_.size() > buffer_limit_bytes || std::chrono::steady_clock::now() - last_flush_ > flush_interval) flush();
+}
+
+void ProbeWriter::flush() {
+  if (!file_ || buffer_.empty()) return;
+  write_buffer();
+  buffer_.clear();
+  last_flush_ = std::chrono::steady_clock::now();
+}
+
+void ProbeWriter::write_buffer() {
+  const auto written = std::fwrite(buffer_.data(), 1, buffer_.size(), file_);
+  if (written == buffer_.size()) {
+    bytes_on_disk_ += written;
+    return;
+  }
+  const int cause = errno;
+  std::fclose(std::exchange(file_, nullptr));
+  // Half a row would make the whole file unreadable: cut back to what was complete.
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path_, ignored)) std::filesystem::resize_file(path_, bytes_on_disk_, ignored);
+  throw std::runtime_error(fmt::format(
+      "{}: cannot be written ({}); free space on that disk or write to another one (rows up to byte {} are kept)",
+      path_.string(), std::generic_category().message(cause), bytes_on_disk_));
+}
+
+void ProbeWriter::close() {
+  if (!file_) return;
+  flush();
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) {
+    throw std::runtime_error(fmt::format("{}: cannot be closed ({}); check the disk", path_.string(),
+                                         std::generic_category().message(errno)));
+  }
+}
+
+}  // namespace sluice

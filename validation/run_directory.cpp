@@ -1,0 +1,101 @@
+#include "validation/run_directory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const json* find(const json& root, std::string_view dotted) {
+  const json* node = &root;
+  while (!dotted.empty()) {
+    const auto dot = dotted.find('.');
+    const std::string key(dotted.substr(0, dot));
+    if (!node->is_object() || !node->contains(key)) return nullptr;
+    node = &node->at(key);
+    dotted = dot == std::string_view::npos ? std::string_view{} : dotted.substr(dot + 1);
+  }
+  return node;
+}
+
+json read_manifest(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in)
+    throw std::runtime_error(fmt::format(
+        "{}: no such file (a run directory needs run.json with \"case\", \"solver\" and \"l0_m\")", file.string()));
+  try {
+    json manifest = json::parse(in);
+    if (!manifest.is_object()) throw std::runtime_error(fmt::format("{}: is not a JSON object", file.string()));
+    return manifest;
+  } catch (const json::parse_error& error) {
+    throw std::runtime_error(fmt::format("{}: is not valid JSON: {}", file.string(), error.what()));
+  }
+}
+
+template <class T>
+T require(const std::optional<T>& value, const fs::path& file, const char* key, const char* example) {
+  if (value) return *value;
+  throw std::runtime_error(
+      fmt::format("{}: {}: is missing or of the wrong type (add \"{}\": {})", file.string(), key, key, example));
+}
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char ch) { return std::toupper(ch); });
+  return text;
+}
+
+}  // namespace
+
+std::optional<double> RunRecord::number(std::string_view dotted) const {
+  const json* node = find(manifest, dotted);
+  if (node == nullptr || !node->is_number()) return std::nullopt;
+  return node->get<double>();
+}
+
+std::optional<std::string> RunRecord::text(std::string_view dotted) const {
+  const json* node = find(manifest, dotted);
+  if (node == nullptr || !node->is_string()) return std::nullopt;
+  return node->get<std::string>();
+}
+
+std::string RunRecord::label() const {
+  // Solvers of this project are acronyms; another code's name stays as its author writes it.
+  std::string name = own ? upper(solver) : solver;
+  if (!walls.empty()) name += " " + walls;
+  name += fmt::format(", l0 = {:g} m", l0_m);
+  if (const auto a = alpha()) name += fmt::format(", alpha = {:g}", *a);
+  return name;
+}
+
+std::vector<fs::path> RunRecord::snapshots() const {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(path / "snapshots", ignored))
+    if (entry.path().extension() == ".vtp") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+RunRecord read_run(const fs::path& directory) {
+  if (!fs::is_directory(directory))
+    throw std::runtime_error(fmt::format("{}: no such run directory (give the --out of a run)", directory.string()));
+  RunRecord run;
+  run.path = directory;
+  const fs::path file = directory / "run.json";
+  run.manifest = read_manifest(file);
+  run.case_name = require(run.text("case"), file, "case", "\"kleefsman\"");
+  run.solver = require(run.text("solver"), file, "solver", "\"name\"");
+  run.l0_m = require(run.number("l0_m"), file, "l0_m", "0.02");
+  run.walls = run.text("walls").value_or("");
+  run.own = run.manifest.contains("schema");
+  run.probes = read_probes(directory / "probes.csv");
+  return run;
+}
+
+}  // namespace sluice

@@ -1,0 +1,44 @@
+// The read side of a run directory: run.json and probes.csv, our own or another code's.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "validation/series.h"
+
+namespace sluice {
+
+/// One run as found on disk. Of another code's manifest only `case`, `solver` and `l0_m` can be relied on, so that
+/// everything else is optional: absent means "missing", never zero.
+struct RunRecord {
+  std::filesystem::path path;
+  nlohmann::json manifest;
+  ProbeTable probes;
+
+  std::string case_name;  ///< required in run.json
+  std::string solver;     ///< required
+  double l0_m = 0;        ///< required
+  std::string walls;      ///< empty when not stated
+  bool own = false;       ///< written by this project (has `schema`)
+
+  /// Value at a dotted path such as "particles.fluid"; nullopt when missing, null or of another type.
+  std::optional<double> number(std::string_view dotted) const;
+  std::optional<std::string> text(std::string_view dotted) const;
+
+  std::optional<double> alpha() const { return number("alpha"); }
+  /// "running", "finished", "interrupted", "failed"; empty when not stated (external codes).
+  std::string status() const { return text("status").value_or(""); }
+  /// Short text for legends and table heads, such as "WCSPH extrapolated, l0 = 0.02 m, alpha = 0.01".
+  std::string label() const;
+  /// Snapshot files under snapshots/, sorted by name.
+  std::vector<std::filesystem::path> snapshots() const;
+};
+
+/// Reads a run directory. Throws std::runtime_error naming the file and what is missing or malformed.
+RunRecord read_run(const std::filesystem::path& directory);
+
+}  // namespace sluice

@@ -1,0 +1,64 @@
+#include "validation/run_log.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "validation/manifest.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A manifest without a status is another code's; one that cannot be read may be anything. Neither is ours to remove.
+std::string status_of(const fs::path& manifest_file) {
+  std::ifstream in(manifest_file);
+  const auto manifest = nlohmann::json::parse(in, nullptr, false);
+  if (!manifest.is_object() || !manifest.contains("status") || !manifest["status"].is_string()) return "unknown";
+  return manifest["status"].get<std::string>();
+}
+
+void remove_old_run(const fs::path& directory) {
+  for (const char* name : {"run.json", "probes.csv", "log.txt", "snapshots.pvd"}) fs::remove(directory / name);
+  if (!fs::is_directory(directory / "snapshots")) return;
+  for (const auto& entry : fs::directory_iterator(directory / "snapshots"))
+    if (entry.path().extension() == ".vtp") fs::remove(entry.path());
+}
+
+}  // namespace
+
+void prepare_run_directory(const fs::path& directory, bool force) {
+  try {
+    fs::create_directories(directory);
+    if (!fs::exists(directory / "run.json")) return;
+    const std::string status = status_of(directory / "run.json");
+    if (!force && status != "failed" && status != "interrupted")
+      throw std::runtime_error(
+          fmt::format("{}: holds a run already, status {} (use --force to replace it, or choose another --out)",
+                      directory.string(), status));
+    remove_old_run(directory);
+  } catch (const fs::filesystem_error& error) {
+    throw std::runtime_error(fmt::format("{}: cannot be prepared for a run: {} (choose another --out)",
+                                         directory.string(), error.code().message()));
+  }
+}
+
+RunLog::RunLog(const fs::path& file) : file_(std::fopen(file.c_str(), "w")) {}
+
+RunLog::~RunLog() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+void RunLog::line(const std::string& text) {
+  if (file_ == nullptr) return;
+  std::istringstream lines(text);
+  // fputs and not fmt::print, which throws when the disk is full.
+  for (std::string one; std::getline(lines, one);) std::fputs(fmt::format("{} {}\n", utc_now(), one).c_str(), file_);
+  std::fflush(file_);
+}
+
+}  // namespace sluice

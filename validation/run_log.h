@@ -1,0 +1,29 @@
+// The files that a run directory starts with: nothing of an older run, and a log.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+namespace sluice {
+
+/// Makes the directory. One that holds a run already is refused unless that run failed or was interrupted, or `force`
+/// is given; its files (and no others) are then removed. Throws std::runtime_error naming the directory and the remedy.
+void prepare_run_directory(const std::filesystem::path& directory, bool force);
+
+/// log.txt: lines with the time of day (UTC). A log that cannot be written is no reason to stop a run.
+class RunLog {
+ public:
+  explicit RunLog(const std::filesystem::path& file);
+  ~RunLog();
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
+
+  /// One line or several.
+  void line(const std::string& text);
+
+ private:
+  std::FILE* file_;
+};
+
+}  // namespace sluice

@@ -1,0 +1,35 @@
+// The one place that knows which solvers exist: their numeric parameters by name, and how to make them.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solvers/scene.h"
+#include "solvers/solver.h"
+#include "validation/case.h"
+#include "validation/run_settings.h"
+
+namespace sluice {
+
+/// Names of all solvers that this program has.
+const std::vector<std::string>& solver_names();
+
+/// Names of the numeric parameters that a solver takes; empty for an unknown solver.
+std::vector<std::string> solver_parameter_names(std::string_view solver);
+
+/// Every parameter's value for this case: given ones checked, those left out derived (the speed of sound from the
+/// water's height). Throws std::invalid_argument `key: what is wrong (remedy)`.
+std::map<std::string, double> complete_parameters(const Case& c, std::string_view solver,
+                                                  const std::map<std::string, double>& given);
+
+/// nu0 = alpha h c0 / (2 (3 + 2)) of the paper [m2/s]; nullopt for a solver without artificial viscosity.
+std::optional<double> equivalent_viscosity_m2_s(const RunSettings& settings);
+
+/// Throws std::invalid_argument for an unknown solver.
+std::unique_ptr<Solver> make_solver(const Case& c, const Scene& scene, const RunSettings& settings);
+
+}  // namespace sluice

@@ -30,6 +30,14 @@ struct Lanes<double> {
 
   static double load(const double* p) { return *p; }
   static double difference(const double* to, double from) { return *to - from; }
+  template <class T>
+  static double gather(const T* values, const std::int32_t* index, int) {
+    return static_cast<double>(values[*index]);
+  }
+  static double difference_at(const double* to, const std::int32_t* index, int, double from) {
+    return to[*index] - from;
+  }
+  static void store(double v, double* p) { *p = v; }
   static double first(int) { return 1; }
   static void add(double* p, double v, int) { *p += v; }
 };
@@ -44,6 +52,7 @@ struct Lanes<FloatPack> {
   static constexpr int width = FloatPack::size();
 
   [[gnu::always_inline]] static FloatPack load(const float* p) { return FloatPack(p, stdx::element_aligned); }
+  [[gnu::always_inline]] static void store(FloatPack v, float* p) { v.copy_to(p, stdx::element_aligned); }
 
   /// to - from in quanta for a whole pack; the integer difference is exact, its conversion rounds to single precision.
   [[gnu::always_inline]] static FloatPack difference(const std::int32_t* to, std::int32_t from) {
@@ -52,6 +61,21 @@ struct Lanes<FloatPack> {
     const Unsigned wrapped = Unsigned(reinterpret_cast<const std::uint32_t*>(to), stdx::element_aligned) -
                              Unsigned(static_cast<std::uint32_t>(from));
     return stdx::static_simd_cast<FloatPack>(stdx::static_simd_cast<Integers>(wrapped));
+  }
+
+  /// values[index[k]] in lane k; lanes from n on repeat the first.
+  template <class T>
+  [[gnu::always_inline]] static FloatPack gather(const T* values, const std::int32_t* index, int n) {
+    std::array<float, width> v;
+    for_lanes(index, n, [&](std::size_t lane, std::int32_t at) { v[lane] = static_cast<float>(values[at]); });
+    return load(v.data());
+  }
+  /// to[index[k]] - from in quanta, as `difference`; lanes from n on repeat the first.
+  [[gnu::always_inline]] static FloatPack difference_at(const std::int32_t* to, const std::int32_t* index, int n,
+                                                        std::int32_t from) {
+    std::array<std::int32_t, width> v;
+    for_lanes(index, n, [&](std::size_t lane, std::int32_t at) { v[lane] = to[at]; });
+    return difference(v.data(), from);
   }
 
   /// One in the first n lanes (0 < n <= width), zero in the others: a window that slides over ones and zeros.
@@ -66,6 +90,15 @@ struct Lanes<FloatPack> {
   }
 
  private:
+  template <class Visit>
+  [[gnu::always_inline]] static void for_lanes(const std::int32_t* index, int n, Visit&& visit) {
+    if (n >= width) {
+      for (std::size_t k = 0; k < width; ++k) visit(k, index[k]);
+    } else {
+      for (std::size_t k = 0; k < width; ++k) visit(k, index[k < static_cast<std::size_t>(n) ? k : 0]);
+    }
+  }
+
   static constexpr std::array<float, 2 * width> ones_then_zeros = [] {
     std::array<float, 2 * width> a{};
     for (std::size_t k = 0; k < width; ++k) a[k] = 1;

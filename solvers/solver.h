@@ -56,7 +56,8 @@ class Solver {
 
   /// Kernel-weighted mean pressure of the fluid at a point (the paper's normalised sum).
   virtual PressureReading kernel_pressure(const Vec3d& point_m) const = 0;
-  /// Mean pressure of the wall particles of the first layer within one smoothing length of a point on a wall.
+  /// Pressure of the wall at a point on it. WCSPH: the mean of the first layer's particles within one smoothing length;
+  /// MPS: the particle nearest to the point.
   virtual PressureReading wall_pressure(const Vec3d& point_m) const = 0;
   /// Smoothed volume fraction of fluid at a point: 1 inside, 0 outside, one half at a plane free surface.
   virtual double volume_fraction(const Vec3d& point_m) const = 0;

@@ -49,7 +49,7 @@ struct TimeWindow {
 struct WallOption {
   std::string name;  ///< such as "extrapolated"
   int layers = 3;
-  std::string pressure_model;     ///< "wall" or "kernel"
+  std::string pressure_model;     ///< "wall", "kernel" or "nearest"
   std::string wave_height_model;  ///< "column" or "top"
 };
 
@@ -172,7 +172,7 @@ struct Case {
 /// nullptr when the solver has no wall model of that name.
 const WallOption* find_walls(const SolverOption& solver, std::string_view walls);
 
-/// The sensor model of the primary reading ("wall", "kernel", "column", "top").
+/// The sensor model of the primary reading ("wall", "kernel", "nearest", "column", "top").
 /// Throws std::invalid_argument when the case does not know the solver or its wall model.
 std::string primary_model(const Case& c, const CaseSensor& sensor, std::string_view solver, std::string_view walls);
 

@@ -137,7 +137,7 @@ WallOption parse_walls(TomlReader& reader, const std::vector<WallOption>& before
   walls.layers = reader.integer("layers");
   if (walls.layers < 1 || walls.layers > 10)
     reader.fail("layers", fmt::format("is {}, must be 1 to 10 particle layers", walls.layers));
-  walls.pressure_model = one_of(reader, "pressure_model", {"wall", "kernel"});
+  walls.pressure_model = one_of(reader, "pressure_model", {"wall", "kernel", "nearest"});
   walls.wave_height_model = one_of(reader, "wave_height_model", {"column", "top"});
   reader.finish();
   return walls;

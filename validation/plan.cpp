@@ -8,22 +8,15 @@
 #include <limits>
 #include <stdexcept>
 
+#include "validation/solver_factory.h"
+
 namespace sluice {
 namespace {
 
-// Memory: the solver's own target is 200 bytes a particle; the scene (positions in double precision) lives beside it
-// while the solver is set up, and the process itself takes some.
-constexpr double bytes_per_particle = 200;
+// Memory beside the solver's: the scene (positions in double precision) lives while the solver is set up, and the
+// process itself takes some.
 constexpr double scene_bytes_per_particle = 40;
 constexpr std::int64_t process_bytes = 64 << 20;
-
-// The mean time step is shorter than Cr h / c0, for the velocity differences between neighbours: the paper's Table 1
-// gives 3.8e-5 s where Cr h / c0 is 4.84e-5 s.
-constexpr double time_step_over_acoustic = 0.8;
-
-// Fluid particle-steps a second and thread, whole steps in disordered flow at l0 = 0.02 m; bench/ measures them.
-constexpr double rate_dynamic_walls = 3.2e6;
-constexpr double rate_extrapolated_walls = 2.6e6;
 
 std::optional<std::int64_t> read_number(const char* file) {
   std::ifstream in(file);
@@ -54,25 +47,20 @@ std::optional<std::int64_t> group_available_bytes() {
   return std::max<std::int64_t>(0, *limit - *used);
 }
 
-std::int64_t memory_for(const ParticleCounts& n) {
+std::int64_t memory_for(const ParticleCounts& n, double bytes_per_particle) {
   const double bytes =
       (static_cast<double>(n.fluid) + static_cast<double>(n.solid)) * (bytes_per_particle + scene_bytes_per_particle);
   return static_cast<std::int64_t>(std::min(bytes, 9e18)) + process_bytes;
 }
 
-double expected_time_step_s(const RunSettings& settings) {
-  const auto& p = settings.parameters;
-  const double h_m = 0.5 * p.at("kernel_radius_over_distance") * settings.l0_m;
-  return time_step_over_acoustic * p.at("courant") * h_m / p.at("speed_of_sound_m_s");
-}
-
 // Smallest particle distance, in steps of 2 %, whose memory fits; rounded up to three figures for people.
 double fitting_l0_m(const Case& c, const RunSettings& settings, std::int64_t available_bytes) {
   double l0_m = settings.l0_m;
+  const double bytes = solver_cost(settings).bytes_per_particle;
   while (l0_m < 1) {
     l0_m *= 1.02;
     if (!particle_distance_problem(c, l0_m).empty()) return 0;
-    if (memory_for(count_particles(scene_description(c, l0_m, settings.wall_layers))) <= available_bytes) break;
+    if (memory_for(count_particles(scene_description(c, l0_m, settings.wall_layers)), bytes) <= available_bytes) break;
   }
   const double scale = std::pow(10, 2 - std::floor(std::log10(l0_m)));
   return std::ceil(l0_m * scale) / scale;
@@ -83,11 +71,12 @@ double fitting_l0_m(const Case& c, const RunSettings& settings, std::int64_t ava
 Plan plan_run(const Case& c, const RunSettings& settings) {
   Plan plan;
   plan.particles = count_particles(scene_description(c, settings.l0_m, settings.wall_layers));
-  plan.memory_bytes = memory_for(plan.particles);
-  plan.dt_s = expected_time_step_s(settings);
+  const SolverCost cost = solver_cost(settings);
+  plan.memory_bytes = memory_for(plan.particles, cost.bytes_per_particle);
+  plan.dt_s = cost.dt_s;
   plan.steps = std::ceil(settings.t_end_s / plan.dt_s);
-  const double rate = settings.walls == "dynamic" ? rate_dynamic_walls : rate_extrapolated_walls;
-  plan.wall_time_s = static_cast<double>(plan.particles.fluid) * plan.steps / (rate * settings.threads);
+  plan.wall_time_s =
+      static_cast<double>(plan.particles.fluid) * plan.steps / (cost.fluid_steps_per_s_and_thread * settings.threads);
   return plan;
 }
 

@@ -66,7 +66,7 @@ TEST(RunSettings, UnknownNamesSayWhatThereIs) {
   request.walls = "dinamic";
   EXPECT_THAT(refusal(request), HasSubstr("did you mean `dynamic`?"));
   request = {};
-  request.solver = "mps2";
+  request.solver = "wcsp";
   EXPECT_THAT(refusal(request), HasSubstr("wcsph"));
   request = {};
   request.overrides = {{"alhpa", 0.1}};

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 
@@ -98,7 +98,7 @@ class PressureSensor : public Sensor {
 
   void append_columns(std::vector<std::string>& names) const override {
     names.push_back(probe_column(sensor_));
-    names.push_back(probe_column(sensor_, "wall"));
+    names.push_back(probe_column(sensor_, wall_model()));
     names.push_back(probe_column(sensor_, "kernel"));
     names.push_back(sensor_.name + "_kernel_support_1");
   }
@@ -107,7 +107,7 @@ class PressureSensor : public Sensor {
     const double wall = solver.wall_pressure(face_m_).pressure_Pa;
     const PressureReading mean = solver.kernel_pressure(face_m_ + offset_m_ * sensor_.normal);
     const double kernel = mean.support < minimum_kernel_support ? 0 : mean.pressure_Pa;
-    values.insert(values.end(), {primary_ == "wall" ? wall : kernel, wall, kernel, mean.support});
+    values.insert(values.end(), {primary_ == "kernel" ? kernel : wall, wall, kernel, mean.support});
   }
 
   PlacedSensor placed() const override {
@@ -115,6 +115,9 @@ class PressureSensor : public Sensor {
   }
 
  private:
+  /// What the solver's wall pressure is: of the one nearest wall particle, or a mean.
+  std::string_view wall_model() const { return primary_ == "nearest" ? "nearest" : "wall"; }
+
   CaseSensor sensor_;
   std::string primary_;
   Vec3d face_m_;
@@ -156,18 +159,18 @@ class WaveHeightSensor : public Sensor {
   ProbeLine line_;
 };
 
-void require_model(const CaseSensor& sensor, const std::string& primary, std::array<std::string_view, 2> known) {
+void require_model(const CaseSensor& sensor, const std::string& primary,
+                   std::initializer_list<std::string_view> known) {
   if (std::find(known.begin(), known.end(), primary) == known.end())
-    throw std::invalid_argument(
-        fmt::format("sensor {}: unknown model '{}' for its primary reading; known are {} and {}", sensor.name, primary,
-                    known[0], known[1]));
+    throw std::invalid_argument(fmt::format("sensor {}: unknown model '{}' for its primary reading; known are {}",
+                                            sensor.name, primary, fmt::join(known, " and ")));
 }
 
 std::unique_ptr<Sensor> make_sensor(const CaseSensor& sensor, const std::string& primary, const Scene& scene,
                                     double h) {
   switch (sensor.kind) {
     case SensorKind::pressure:
-      require_model(sensor, primary, {"wall", "kernel"});
+      require_model(sensor, primary, {"wall", "kernel", "nearest"});
       return std::make_unique<PressureSensor>(sensor, primary, scene, h);
     case SensorKind::wave_height:
       require_model(sensor, primary, {"column", "top"});

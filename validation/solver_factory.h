@@ -26,8 +26,18 @@ std::vector<std::string> solver_parameter_names(std::string_view solver);
 std::map<std::string, double> complete_parameters(const Case& c, std::string_view solver,
                                                   const std::map<std::string, double>& given);
 
-/// nu0 = alpha h c0 / (2 (3 + 2)) of the paper [m2/s]; nullopt for a solver without artificial viscosity.
+/// nu0 = alpha h c0 / (2 (3 + 2)) of the paper [m2/s], or the kinematic viscosity of a solver that has one.
 std::optional<double> equivalent_viscosity_m2_s(const RunSettings& settings);
+
+/// What a run costs, for plans.
+struct SolverCost {
+  double bytes_per_particle = 0;
+  double dt_s = 0;  ///< mean time step
+  double fluid_steps_per_s_and_thread = 0;
+};
+
+/// Throws std::invalid_argument for an unknown solver.
+SolverCost solver_cost(const RunSettings& settings);
 
 /// Throws std::invalid_argument for an unknown solver.
 std::unique_ptr<Solver> make_solver(const Case& c, const Scene& scene, const RunSettings& settings);

@@ -31,7 +31,8 @@ struct Arguments {
 };
 
 const char* const footer =
-    "Runs the case at the tier with every wall model: those with acceptance rows are judged, the others stand beside "
+    "Runs the case at the tier with every solver and wall model: those with acceptance rows are judged, the others "
+    "stand beside "
     "them\n"
     "in the report. Runs land in runs/validate-TIER-...; exit code 1 when a band is missed.\n\n"
     "Examples:\n"
@@ -116,22 +117,33 @@ bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
   return passed && judged;
 }
 
+std::vector<RunRequest> requests(const Case& c, const Arguments& arguments, const Tier& tier) {
+  std::vector<RunRequest> all;
+  for (const SolverOption& solver : c.solvers) {
+    if (!arguments.solver.empty() && solver.name != arguments.solver) continue;
+    for (const std::string& walls : walls_in_order(solver)) {
+      RunRequest request;
+      request.solver = solver.name;
+      request.walls = walls;
+      request.l0_m = tier.l0_m;
+      request.threads = arguments.threads;
+      request.snapshots = walls == solver.default_walls;
+      request.overrides = {{"t_end_s", tier.t_end_s}};
+      all.push_back(request);
+    }
+  }
+  return all;
+}
+
 int validate(const Arguments& arguments) {
   const Case c = load_case(arguments.case_name);
   const Tier& tier = find_tier(c, arguments.tier);
-  const SolverOption& solver = find_solver(c, arguments.solver.empty() ? c.default_solver : arguments.solver);
+  if (!arguments.solver.empty()) find_solver(c, arguments.solver);
   std::vector<fs::path> directories;
   bool any_failed = false;
-  for (const std::string& walls : walls_in_order(solver)) {
-    RunRequest request;
-    request.solver = solver.name;
-    request.walls = walls;
-    request.l0_m = tier.l0_m;
-    request.threads = arguments.threads;
-    request.snapshots = walls == solver.default_walls;
-    request.overrides = {{"t_end_s", tier.t_end_s}};
+  for (const RunRequest& request : requests(c, arguments, tier)) {
     directories.push_back(fs::path(arguments.runs) /
-                          fmt::format("validate-{}-{}-{}-{}", tier.name, c.name, solver.name, walls));
+                          fmt::format("validate-{}-{}-{}-{}", tier.name, c.name, request.solver, request.walls));
     const int code = run_once(c, arguments, request, directories.back());
     if (code > 128) return code;
     any_failed = any_failed || code != 0;
@@ -150,7 +162,7 @@ void add_validate(CLI::App& app, int& exit_code) {
       app.add_subcommand("validate", "Run a case at a tier, report it, and judge it by its acceptance bands");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("CASE", arguments->case_name, "Case")->capture_default_str();
-  command->add_option("--solver", arguments->solver, "Solver (default: the case's first)");
+  command->add_option("--solver", arguments->solver, "Solver (default: all of the case)");
   command->add_option("--tier", arguments->tier, "Resolution: a tier of the case")->capture_default_str();
   command->add_option("--threads", arguments->threads, "Threads (default: all processors)")->check(CLI::Range(1, 1024));
   command->add_option("--out", arguments->out, "Directory of the report")->capture_default_str();

@@ -1,0 +1,93 @@
+// What sensors see of an MPS run, and snapshots of it. All sums here are scalar and in double precision.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solvers/mps/mps_solver.h"
+#include "solvers/wcsph/kernel.h"
+
+namespace sluice::mps {
+namespace {
+
+/// Calls visit(j, distance) for every particle of a set within the list's radius of a point.
+template <class Pack, class Visit>
+void for_each_near(const Particles<Pack>& p, const SearchSet& set, const Vec3d& point, double travel_m, Visit&& visit) {
+  for (const Run& run : set.index.neighbours(point, travel_m)) {
+    for (auto k = run.begin; k < run.end; ++k) {
+      const std::size_t j = set.first + static_cast<std::size_t>(k);
+      const Vec3d d = p.position.template at<double>(j) - point;
+      visit(j, std::sqrt(dot(d, d)));
+    }
+  }
+}
+
+bool inside(const Box& b, const Vec3d& p) {
+  return p.x >= b.lower.x && p.x <= b.upper.x && p.y >= b.lower.y && p.y <= b.upper.y && p.z >= b.lower.z &&
+         p.z <= b.upper.z;
+}
+
+}  // namespace
+
+/// The sum that the WCSPH solver's sensors use, with the effective radius as kernel radius: sum P_b W_ab / sum W_ab
+/// over fluid particles b   [Pa]   Eq. (33)
+template <class Pack>
+PressureReading MpsSolver<Pack>::kernel_pressure(const Vec3d& point_m) const {
+  if (!inside(tank_.domain(), point_m)) return {};
+  const double h = smoothing_length_m();
+  const double l0 = constants_.parameters.particle_distance_m;
+  const double normalisation = wcsph::Wendland{h}.normalisation();
+  double weights = 0;
+  double pressures = 0;
+  for_each_near(particles_, {fluid_index_, particles_.first_fluid()}, point_m, travel_m_,
+                [&](std::size_t j, double distance) {
+                  if (distance >= 2 * h) return;
+                  const double W = wcsph::wendland_weight(wcsph::wendland_taper(distance, 0.5 / h), normalisation);
+                  weights += W;
+                  pressures += W * particles_.pressure[j];
+                });
+  return {weights > 0 ? pressures / weights : 0.0, weights * l0 * l0 * l0};
+}
+
+template <class Pack>
+double MpsSolver<Pack>::volume_fraction(const Vec3d& point_m) const {
+  return kernel_pressure(point_m).support;
+}
+
+template <class Pack>
+PressureReading MpsSolver<Pack>::wall_pressure(const Vec3d& point_m) const {
+  if (!inside(tank_.domain(), point_m)) return {};
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t nearest = 0;
+  for_each_near(particles_, {wall_index_, particles_.first_wall()}, point_m, 0.0, [&](std::size_t j, double distance) {
+    if (distance >= least) return;
+    least = distance;
+    nearest = j;
+  });
+  if (!std::isfinite(least)) return {};
+  return {particles_.pressure[nearest], 1};
+}
+
+template <class Pack>
+ParticleSnapshot MpsSolver<Pack>::snapshot() const {
+  ParticleSnapshot s;
+  s.time_s = time_s_;
+  s.fluid_count = particles_.fluid;
+  const auto copy = [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      s.position_m.push_back(particles_.position.template at<float>(i));
+      s.velocity_m_s.push_back(particles_.velocity.template at<float>(i));
+      s.pressure_Pa.push_back(static_cast<float>(particles_.pressure[i]));
+      s.density_kg_m3.push_back(static_cast<float>(constants_.parameters.density_kg_m3));
+      s.id.push_back(particles_.id[i]);
+    }
+  };
+  copy(particles_.first_fluid(), particles_.size());
+  copy(particles_.first_wall(), particles_.first_fluid());
+  copy(0, particles_.dummies);
+  return s;
+}
+
+template class MpsSolver<FloatPack>;
+template class MpsSolver<double>;
+
+}  // namespace sluice::mps

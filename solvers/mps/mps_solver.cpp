@@ -1,0 +1,122 @@
+#include "solvers/mps/mps_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace sluice::mps {
+
+/// One step of the paper's section 2.3.
+template <class Pack>
+double MpsSolver<Pack>::step() {
+  clock_.time("prediction", [&] { predict(); });
+  clock_.time("collisions", [&] { collide_pairs(); });
+  clock_.time("motion", [&] { move(); });
+  clock_.time("neighbours", [&] { list_neighbours(); });
+  clock_.time("pressure", [&] { solve_pressures(); });
+  clock_.time("correction", [&] { correct_velocities(); });
+  time_s_ += constants_.dt_s;
+  ++steps_;
+  return constants_.dt_s;
+}
+
+/// u* of viscosity and gravity, Eq. (21).
+template <class Pack>
+void MpsSolver<Pack>::predict() {
+  predict_velocities(particles_, list_, constants_, next_velocity_, threads_);
+  particles_.velocity.swap(next_velocity_);
+}
+
+/// r* = r + dt u*   Eq. (22)
+template <class Pack>
+void MpsSolver<Pack>::move() {
+  const auto n = static_cast<std::int64_t>(particles_.size());
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (std::int64_t k = static_cast<std::int64_t>(particles_.first_fluid()); k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    particles_.position.set(
+        i, particles_.position.template at<double>(i) + constants_.dt_s * particles_.velocity.template at<double>(i));
+  }
+}
+
+template <class Pack>
+void MpsSolver<Pack>::list_neighbours() {
+  find_leaving();
+  const std::size_t first = particles_.first_fluid();
+  const auto fluid = [&](const std::vector<double>& v) { return std::span<const double>(v).subspan(first); };
+  const auto& x = particles_.position;
+  fluid_index_.sort(fluid(x.x), fluid(x.y), fluid(x.z), leaves_, threads_);
+  particles_.permute_fluid(fluid_index_.order(), threads_);
+  next_velocity_.resize(particles_.size());
+  particles_.encode_positions(tank_.domain(), first, threads_);
+  list_.list(particles_, {fluid_index_, first}, {wall_index_, particles_.first_wall()}, {dummy_index_, 0}, reach_,
+             threads_);
+  travel_m_ = 0;
+}
+
+/// Marks the particles that have left, and counts them.
+template <class Pack>
+void MpsSolver<Pack>::find_leaving() {
+  leaves_.resize(particles_.fluid);
+  std::int64_t over_top = 0;
+  std::int64_t through_walls = 0;
+  std::int64_t undefined = 0;
+  const auto n = static_cast<std::int64_t>(particles_.fluid);
+#pragma omp parallel for num_threads(threads_) schedule(static) reduction(+ : over_top, through_walls, undefined)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Whereabouts w = tank_.whereabouts(particles_.position.template at<double>(particles_.first_fluid() + i));
+    leaves_[i] = static_cast<std::uint8_t>(w);
+    over_top += w == Whereabouts::over_top;
+    through_walls += w == Whereabouts::through_wall;
+    undefined += w == Whereabouts::undefined;
+  }
+  if (undefined > 0) {
+    throw std::runtime_error(
+        fmt::format("{} particles have positions that are no numbers after step {} (t = {:.6f} s): the run has become "
+                    "unstable; try a smaller courant",
+                    undefined, steps_, time_s_));
+  }
+  lost_.over_top += over_top;
+  lost_.through_walls += through_walls;
+}
+
+template <class Pack>
+void MpsSolver<Pack>::collide_pairs() {
+  if (constants_.parameters.collision_over_distance <= 0) return;
+  collisions_ += collide(particles_, list_, constants_, next_velocity_, threads_);
+  particles_.velocity.swap(next_velocity_);
+}
+
+template <class Pack>
+void MpsSolver<Pack>::solve_pressures() {
+  const PressureReport report = pressure_equation_.solve(particles_, list_);
+  iterations_ += report.convergence.iterations;
+  most_iterations_ = std::max(most_iterations_, report.convergence.iterations);
+  unknowns_ = report.unknowns;
+  negative_pressures_ += report.set_to_zero;
+}
+
+template <class Pack>
+void MpsSolver<Pack>::correct_velocities() {
+  const CorrectionReport report = correct(particles_, list_, constants_, threads_);
+  plain_gradients_ += report.plain_gradients;
+  fluid_steps_ += static_cast<std::int64_t>(particles_.fluid);
+  const auto first = particles_.number_density.begin() + static_cast<std::ptrdiff_t>(particles_.first_fluid());
+  if (first != particles_.number_density.end()) {
+    const double most = static_cast<double>(*std::max_element(first, particles_.number_density.end()));
+    greatest_density_ratio_ = std::max(greatest_density_ratio_, most / constants_.lattice.number_density);
+  }
+  travel_m_ = report.greatest_move_m;
+  if (travel_m_ > fluid_index_.geometry().slack_m) {
+    list_neighbours();
+  } else {
+    particles_.encode_positions(tank_.domain(), particles_.first_fluid(), threads_);
+  }
+}
+
+template class MpsSolver<FloatPack>;
+template class MpsSolver<double>;
+
+}  // namespace sluice::mps

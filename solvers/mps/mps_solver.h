@@ -1,0 +1,105 @@
+// The moving particle semi-implicit solver: one class for the fast path (packs of single precision) and for the
+// reference path (one lane of double precision).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solvers/cell_rows.h"
+#include "solvers/mps/neighbours.h"
+#include "solvers/mps/operators.h"
+#include "solvers/mps/parameters.h"
+#include "solvers/mps/particles.h"
+#include "solvers/mps/pressure_equation.h"
+#include "solvers/phase_clock.h"
+#include "solvers/scene.h"
+#include "solvers/solver.h"
+#include "solvers/tank.h"
+
+namespace sluice::mps {
+
+template <class Pack>
+class MpsSolver final : public Solver {
+ public:
+  /// Throws std::invalid_argument when a parameter is out of its range (the message names it), or when the scene's
+  /// walls have fewer than three layers.
+  MpsSolver(const Scene& scene, const Parameters& parameters, int threads);
+
+  /// Throws NotConverged, and std::runtime_error when the run has become unstable. What was computed stays readable.
+  double step() override;
+
+  double time_s() const override { return time_s_; }
+  std::int64_t steps() const override { return steps_; }
+  std::int64_t fluid_count() const override { return static_cast<std::int64_t>(particles_.fluid); }
+  std::int64_t solid_count() const override { return static_cast<std::int64_t>(particles_.first_fluid()); }
+  LostParticles lost() const override { return lost_; }
+  PhaseTimes phases() const override { return clock_.times(); }
+  std::int64_t memory_bytes() const override;
+  std::map<std::string, double> facts() const override;
+  PressureReading kernel_pressure(const Vec3d& point_m) const override;
+  /// The pressure of the wall particle nearest to the point.
+  PressureReading wall_pressure(const Vec3d& point_m) const override;
+  double volume_fraction(const Vec3d& point_m) const override;
+  double smoothing_length_m() const override { return 0.5 * constants_.parameters.effective_radius_m(); }
+  ParticleSnapshot snapshot() const override;
+
+  const Particles<Pack>& particles() const { return particles_; }
+  const NeighbourList<Pack>& neighbours() const { return list_; }
+  const PressureEquation<Pack>& pressure_equation() const { return pressure_equation_; }
+  const Parameters& parameters() const { return constants_.parameters; }
+  const LatticeConstants& lattice() const { return constants_.lattice; }
+  /// Replaces the velocity of the fluid particle with an id: for tests with known answers.
+  void set_velocity(std::int32_t id, const Vec3d& velocity_m_s);
+
+ private:
+  void place(const Scene& scene);
+
+  // The phases of a step.
+  void predict();
+  void collide_pairs();
+  void move();
+  void list_neighbours();
+  void solve_pressures();
+  void correct_velocities();
+
+  void find_leaving();
+
+  int threads_;
+  Tank tank_;
+  OperatorConstants constants_;
+  Reach reach_;
+  Particles<Pack> particles_;
+  RowIndex fluid_index_;
+  RowIndex wall_index_;
+  RowIndex dummy_index_;
+  NeighbourList<Pack> list_;
+  PressureEquation<Pack> pressure_equation_;
+  VectorField<typename Lanes<Pack>::Real> next_velocity_;
+  std::vector<std::uint8_t> leaves_;
+  double travel_m_ = 0;
+  double time_s_ = 0;
+  std::int64_t steps_ = 0;
+  LostParticles lost_;
+  PhaseClock clock_;
+  // Over the whole run.
+  std::int64_t iterations_ = 0;
+  int most_iterations_ = 0;
+  std::int64_t unknowns_ = 0;
+  std::int64_t collisions_ = 0;
+  std::int64_t plain_gradients_ = 0;
+  std::int64_t negative_pressures_ = 0;
+  std::int64_t fluid_steps_ = 0;
+  double greatest_density_ratio_ = 0;
+};
+
+extern template class MpsSolver<FloatPack>;
+extern template class MpsSolver<double>;
+
+}  // namespace sluice::mps
+
+namespace sluice {
+
+/// The fast path.
+std::unique_ptr<Solver> make_mps_solver(const Scene& scene, const mps::Parameters& parameters, int threads);
+
+}  // namespace sluice

@@ -1,0 +1,307 @@
+#include "solvers/mps/multigrid.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/mps/direct_solver.h"
+
+namespace sluice::mps {
+namespace {
+
+/// Jacobi smoothing: x += damping (b - A x) / diagonal. The spectrum of diagonal^-1 A ends near 1.3.
+constexpr double damping = 0.8;
+/// Sums over cells make a coarse matrix too stiff; its correction is scaled up (Braess 1995, Computing 55:379).
+constexpr double over_correction = 1.8;
+/// A level with no more unknowns than this is solved directly.
+constexpr std::size_t few_unknowns = 400;
+/// Rows that a thread takes at a time: those of dry walls are empty and lie together, so that halves would not be
+/// equal.
+constexpr int rows_at_once = 512;
+
+}  // namespace
+
+template <class Real>
+struct Multigrid<Real>::Level {
+  PressureMatrix<Real> matrix;
+  std::vector<Real> x, b, scratch;
+  std::vector<CellAddress> cell;     ///< of each unknown, in cells of the next level
+  std::vector<std::int32_t> coarse;  ///< cell's number on the next level, -1 where there is no row
+  // How the next level's cells are made up.
+  std::vector<std::int32_t> number_of_cell;  ///< by grid cell, -1 if empty
+  std::vector<std::int32_t> member_start;    ///< cells + 1
+  std::vector<std::int32_t> members;
+  std::int32_t nx = 0, ny = 0, nz = 0;  ///< grid of those cells
+  // This level's own matrix, unless it is the finest.
+  SparseRows<Real> rows;
+  std::vector<Span> spans;
+  std::vector<Real> diagonal;
+  std::vector<std::uint8_t> has_row;
+
+  std::size_t begin() const { return matrix.begin; }
+  std::size_t end() const { return matrix.end; }
+};
+
+template <class Real>
+Multigrid<Real>::Multigrid(const Box& domain_m, double cell_edge_m, int threads)
+    : domain_(domain_m),
+      cell_edge_m_(cell_edge_m),
+      threads_(threads),
+      coarsest_(std::make_unique<DirectSolver>()),
+      slot_of_cell_(static_cast<std::size_t>(threads)),
+      row_columns_(static_cast<std::size_t>(threads)),
+      row_values_(static_cast<std::size_t>(threads)) {
+  const auto cells = [&](double extent) { return static_cast<std::int32_t>(extent / cell_edge_m) + 1; };
+  auto nx = cells(domain_m.upper.x - domain_m.lower.x);
+  auto ny = cells(domain_m.upper.y - domain_m.lower.y);
+  auto nz = cells(domain_m.upper.z - domain_m.lower.z);
+  for (;;) {
+    auto level = std::make_unique<Level>();
+    level->nx = nx;
+    level->ny = ny;
+    level->nz = nz;
+    level->number_of_cell.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
+                                 static_cast<std::size_t>(nz));
+    levels_.push_back(std::move(level));
+    if (nx * ny * nz == 1) break;
+    nx = (nx + 1) / 2;
+    ny = (ny + 1) / 2;
+    nz = (nz + 1) / 2;
+  }
+  levels_.push_back(std::make_unique<Level>());
+}
+
+template <class Real>
+Multigrid<Real>::~Multigrid() = default;
+template <class Real>
+Multigrid<Real>::Multigrid(Multigrid&&) noexcept = default;
+
+template <class Real>
+void Multigrid<Real>::prepare(const PressureMatrix<Real>& matrix, std::span<const double> x, std::span<const double> y,
+                              std::span<const double> z) {
+  Level& finest = *levels_.front();
+  finest.matrix = matrix;
+  finest.cell.resize(matrix.end);
+  const auto n = static_cast<std::int64_t>(matrix.end);
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (std::int64_t k = static_cast<std::int64_t>(matrix.begin); k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const auto at = [&](double value, double lower) {
+      return static_cast<std::int32_t>((value - lower) / cell_edge_m_);
+    };
+    finest.cell[i] = {at(x[i], domain_.lower.x), at(y[i], domain_.lower.y), at(z[i], domain_.lower.z)};
+  }
+  used_levels_ = 1;
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+    Level& level = *levels_[l];
+    level.x.resize(level.end());
+    level.b.resize(level.end());
+    level.scratch.resize(level.end());
+    if (l > 0 && level.end() <= few_unknowns) break;
+    gather_cells(l);
+    sum_coarse_matrix(l);
+    ++used_levels_;
+  }
+  Level& last = *levels_[static_cast<std::size_t>(used_levels_) - 1];
+  last.x.resize(last.end());
+  last.b.resize(last.end());
+  last.scratch.resize(last.end());
+  coarsest_->factorise(last.matrix);
+}
+
+/// Numbers the cells that hold unknowns in the grid's order, and lists the members of each.
+template <class Real>
+void Multigrid<Real>::gather_cells(std::size_t l) {
+  Level& fine = *levels_[l];
+  std::fill(fine.number_of_cell.begin(), fine.number_of_cell.end(), -1);
+  fine.coarse.assign(fine.end(), -1);
+  const auto grid_cell = [&](const CellAddress& a) {
+    return static_cast<std::size_t>((a.z * fine.ny + a.y) * fine.nx + a.x);
+  };
+  for (std::size_t i = fine.begin(); i < fine.end(); ++i)
+    if (fine.matrix.has_row[i] != 0) fine.number_of_cell[grid_cell(fine.cell[i])] = 0;
+  Level& coarse = *levels_[l + 1];
+  coarse.cell.clear();
+  for (std::size_t c = 0; c < fine.number_of_cell.size(); ++c) {
+    if (fine.number_of_cell[c] < 0) continue;
+    fine.number_of_cell[c] = static_cast<std::int32_t>(coarse.cell.size());
+    const auto at = static_cast<std::int32_t>(c);
+    coarse.cell.push_back({at % fine.nx / 2, at / fine.nx % fine.ny / 2, at / fine.nx / fine.ny / 2});
+  }
+  fine.member_start.assign(coarse.cell.size() + 2, 0);
+  for (std::size_t i = fine.begin(); i < fine.end(); ++i) {
+    if (fine.matrix.has_row[i] == 0) continue;
+    fine.coarse[i] = fine.number_of_cell[grid_cell(fine.cell[i])];
+    ++fine.member_start[static_cast<std::size_t>(fine.coarse[i]) + 2];
+  }
+  for (std::size_t c = 2; c < fine.member_start.size(); ++c) fine.member_start[c] += fine.member_start[c - 1];
+  fine.members.resize(static_cast<std::size_t>(fine.member_start.back()));
+  for (std::size_t i = fine.begin(); i < fine.end(); ++i) {
+    if (fine.coarse[i] < 0) continue;
+    auto& next = fine.member_start[static_cast<std::size_t>(fine.coarse[i]) + 1];
+    fine.members[static_cast<std::size_t>(next++)] = static_cast<std::int32_t>(i);
+  }
+}
+
+/// The entry between two cells is the sum of the entries between their members.
+template <class Real>
+void Multigrid<Real>::sum_coarse_matrix(std::size_t l) {
+  const Level& fine = *levels_[l];
+  Level& coarse = *levels_[l + 1];
+  const std::size_t cells = coarse.cell.size();
+  coarse.diagonal.resize(cells);
+  coarse.has_row.assign(cells, 1);
+  coarse.spans.resize(cells);
+  coarse.rows.reserve(cells, 32 * cells);
+  for (auto& slots : slot_of_cell_)
+    if (slots.size() < cells) slots.resize(cells, -1);
+  do {
+    coarse.rows.clear(cells);
+#pragma omp parallel num_threads(threads_)
+    {
+      const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+      auto& slot = slot_of_cell_[thread];
+      auto& columns = row_columns_[thread];
+      auto& values = row_values_[thread];
+      typename SparseRows<Real>::Writer writer(coarse.rows);
+#pragma omp for schedule(dynamic, 64)
+      for (std::int64_t row = 0; row < static_cast<std::int64_t>(cells); ++row) {
+        const auto I = static_cast<std::size_t>(row);
+        columns.clear();
+        values.clear();
+        Real diagonal{};
+        for (auto m = fine.member_start[I]; m < fine.member_start[I + 1]; ++m) {
+          const auto i = static_cast<std::size_t>(fine.members[static_cast<std::size_t>(m)]);
+          diagonal += fine.matrix.diagonal[i];
+          const Span s = fine.matrix.rows[i];
+          for (std::uint32_t k = s.begin; k < s.end; ++k) {
+            const std::int32_t J = fine.coarse[static_cast<std::size_t>(fine.matrix.columns[k])];
+            if (J < 0) continue;
+            if (J == static_cast<std::int32_t>(I)) {
+              diagonal -= fine.matrix.weights[k];
+              continue;
+            }
+            auto& place = slot[static_cast<std::size_t>(J)];
+            if (place < 0) {
+              place = static_cast<std::int32_t>(columns.size());
+              columns.push_back(J);
+              values.push_back(0);
+            }
+            values[static_cast<std::size_t>(place)] += fine.matrix.weights[k];
+          }
+        }
+        for (const std::int32_t J : columns) slot[static_cast<std::size_t>(J)] = -1;
+        coarse.diagonal[I] = diagonal;
+        writer.write(I, columns.data(), values.data(), columns.size());
+      }
+    }
+  } while (coarse.rows.grew_for_more());
+  for (std::size_t I = 0; I < cells; ++I) coarse.spans[I] = coarse.rows.span(I);
+  coarse.matrix = {coarse.spans, coarse.rows.columns(), coarse.rows.values(), coarse.diagonal, coarse.has_row, 0,
+                   cells};
+}
+
+template <class Real>
+void Multigrid<Real>::apply(std::span<const double> r, std::span<double> z) {
+  Level& finest = *levels_.front();
+  const auto n = static_cast<std::int64_t>(finest.end());
+#pragma omp parallel for num_threads(threads_) schedule(static, rows_at_once)
+  for (std::int64_t i = static_cast<std::int64_t>(finest.begin()); i < n; ++i)
+    finest.b[static_cast<std::size_t>(i)] = static_cast<Real>(r[static_cast<std::size_t>(i)]);
+  cycle(0);
+#pragma omp parallel for num_threads(threads_) schedule(static, rows_at_once)
+  for (std::int64_t i = static_cast<std::int64_t>(finest.begin()); i < n; ++i)
+    z[static_cast<std::size_t>(i)] = static_cast<double>(finest.x[static_cast<std::size_t>(i)]);
+}
+
+template <class Real>
+void Multigrid<Real>::cycle(std::size_t l) {
+  Level& level = *levels_[l];
+  if (static_cast<int>(l) + 1 == used_levels_) {
+    coarsest_->solve(std::span<const Real>(level.b), std::span<Real>(level.x));
+    return;
+  }
+  // A W-cycle below the finest level: there it costs little, and keeps the number of iterations from growing with the
+  // levels.
+  const int visits = l == 0 ? 1 : 2;
+  smooth_from_zero(level);
+  for (int visit = 0; visit < visits; ++visit) {
+    restrict_residual(level, *levels_[l + 1]);
+    cycle(l + 1);
+    correct_and_smooth(level, *levels_[l + 1]);
+  }
+}
+
+template <class Real>
+void Multigrid<Real>::smooth_from_zero(Level& level) {
+  const auto n = static_cast<std::int64_t>(level.end());
+#pragma omp parallel for num_threads(threads_) schedule(static, rows_at_once)
+  for (std::int64_t k = static_cast<std::int64_t>(level.begin()); k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    level.x[i] = level.matrix.has_row[i] != 0 ? static_cast<Real>(damping) * level.b[i] / level.matrix.diagonal[i] : 0;
+  }
+}
+
+template <class Real>
+void Multigrid<Real>::restrict_residual(Level& fine, Level& coarse) {
+  const auto n = static_cast<std::int64_t>(fine.end());
+  const auto cells = static_cast<std::int64_t>(coarse.end());
+#pragma omp parallel num_threads(threads_)
+  {
+#pragma omp for schedule(static, rows_at_once)
+    for (std::int64_t k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      fine.scratch[i] = fine.coarse[i] < 0 ? 0
+                                           : fine.b[i] - fine.matrix.diagonal[i] * fine.x[i] +
+                                                 off_diagonal(fine.matrix, i, fine.x.data());
+    }
+#pragma omp for schedule(static, rows_at_once)
+    for (std::int64_t c = 0; c < cells; ++c) {
+      const auto I = static_cast<std::size_t>(c);
+      Real sum{};
+      for (auto m = fine.member_start[I]; m < fine.member_start[I + 1]; ++m)
+        sum += fine.scratch[static_cast<std::size_t>(fine.members[static_cast<std::size_t>(m)])];
+      coarse.b[I] = sum;
+    }
+  }
+}
+
+template <class Real>
+void Multigrid<Real>::correct_and_smooth(Level& fine, const Level& coarse) {
+  const auto n = static_cast<std::int64_t>(fine.end());
+#pragma omp parallel num_threads(threads_)
+  {
+#pragma omp for schedule(static, rows_at_once)
+    for (std::int64_t k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const std::int32_t J = fine.coarse[i];
+      fine.scratch[i] =
+          J < 0 ? 0 : fine.x[i] + static_cast<Real>(over_correction) * coarse.x[static_cast<std::size_t>(J)];
+    }
+#pragma omp for schedule(static, rows_at_once)
+    for (std::int64_t k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (fine.coarse[i] < 0) continue;
+      const Real residual = fine.b[i] + off_diagonal(fine.matrix, i, fine.scratch.data());
+      const Real w = static_cast<Real>(damping);
+      fine.x[i] = (1 - w) * fine.scratch[i] + w * residual / fine.matrix.diagonal[i];
+    }
+  }
+}
+
+template <class Real>
+std::int64_t Multigrid<Real>::memory_bytes() const {
+  std::int64_t sum = 0;
+  for (const auto& l : levels_) {
+    sum += bytes(l->x) + bytes(l->b) + bytes(l->scratch) + bytes(l->cell) + bytes(l->coarse) +
+           bytes(l->number_of_cell) + bytes(l->member_start) + bytes(l->members) + l->rows.memory_bytes() +
+           bytes(l->spans) + bytes(l->diagonal) + bytes(l->has_row);
+  }
+  return sum;
+}
+
+template class Multigrid<float>;
+template class Multigrid<double>;
+
+}  // namespace sluice::mps

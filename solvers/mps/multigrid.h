@@ -1,0 +1,71 @@
+// Multigrid as preconditioner of the pressure equation: unknowns are gathered into cells of 2 l0, those into cells
+// twice as wide, and so on; the matrix of a coarse level sums the entries between two cells. One V-cycle, the same
+// forwards and backwards, so that conjugate gradients may use it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "solvers/mps/pressure_matrix.h"
+#include "solvers/scene.h"
+#include "solvers/vec3.h"
+
+namespace sluice::mps {
+
+class DirectSolver;
+
+/// The cell of an unknown.
+struct CellAddress {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  std::int32_t z = 0;
+};
+
+template <class Real>
+class Multigrid {
+ public:
+  /// Cells of the first coarse level have this edge; the domain bounds their number.
+  Multigrid(const Box& domain_m, double cell_edge_m, int threads);
+  ~Multigrid();
+  Multigrid(Multigrid&&) noexcept;
+  Multigrid(const Multigrid&) = delete;
+  Multigrid& operator=(const Multigrid&) = delete;
+  Multigrid& operator=(Multigrid&&) = delete;
+
+  /// Prepares for a matrix whose unknown i lies at (x[i], y[i], z[i]) [m]. The matrix must stay while it is applied.
+  void prepare(const PressureMatrix<Real>& matrix, std::span<const double> x, std::span<const double> y,
+               std::span<const double> z);
+
+  /// z = cycle applied to r; both in double, the cycle in the matrix's precision.
+  void apply(std::span<const double> r, std::span<double> z);
+
+  int levels() const { return used_levels_; }
+  std::int64_t memory_bytes() const;
+
+ private:
+  struct Level;
+
+  void gather_cells(std::size_t level);
+  void sum_coarse_matrix(std::size_t level);
+  void cycle(std::size_t level);
+  void smooth_from_zero(Level& level);
+  void restrict_residual(Level& fine, Level& coarse);
+  void correct_and_smooth(Level& fine, const Level& coarse);
+
+  Box domain_;
+  double cell_edge_m_;
+  int threads_;
+  int used_levels_ = 0;
+  std::vector<std::unique_ptr<Level>> levels_;
+  std::unique_ptr<DirectSolver> coarsest_;
+  std::vector<std::vector<std::int32_t>> slot_of_cell_;  ///< one a thread: place of a coarse column in the current row
+  std::vector<std::vector<std::int32_t>> row_columns_;
+  std::vector<std::vector<Real>> row_values_;
+};
+
+extern template class Multigrid<float>;
+extern template class Multigrid<double>;
+
+}  // namespace sluice::mps

@@ -1,0 +1,75 @@
+// Which particles interact, and how strongly: one row a particle that has a pressure. The rows serve as neighbour list
+// of every operator, and as matrix of the pressure equation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solvers/cell_rows.h"
+#include "solvers/mps/particles.h"
+#include "solvers/mps/sparse_rows.h"
+
+namespace sluice::mps {
+
+/// The particles that a search looks through; particle k of an index is particle first + k of the run.
+struct SearchSet {
+  const RowIndex& index;
+  std::size_t first;
+};
+
+/// Distances of the weight in quanta of the coordinates.
+struct Reach {
+  double quantum_m = 0;
+  double effective_radius_m = 0;
+  double list_radius_m = 0;  ///< what is listed: a little more, so that the list outlives a small displacement
+};
+
+/// Row i: first neighbours that have a pressure (fluid, then walls), then dummies; values are weights omega_ij.
+template <class Pack>
+class NeighbourList {
+ public:
+  using Real = typename Lanes<Pack>::Real;
+
+  /// Lists the neighbours of fluid particles and of walls that fluid can touch, and with them number densities and
+  /// centroid deviations (Eqs. 17 and 30). Rows of other particles are empty and their number density is zero.
+  void list(Particles<Pack>& particles, const SearchSet& fluid, const SearchSet& walls, const SearchSet& dummies,
+            const Reach& reach, int threads);
+
+  /// All neighbours of particle i, and those that have a pressure.
+  Span all(std::size_t i) const { return rows_.span(i); }
+  Span with_pressure(std::size_t i) const {
+    const Span s = rows_.span(i);
+    return {s.begin, s.end - dummies_[i]};
+  }
+  const std::int32_t* columns() const { return rows_.columns(); }
+  const Real* weights() const { return rows_.values(); }
+  std::int64_t memory_bytes() const;
+
+ private:
+  /// Candidates of one particle, compacted to those within reach. One a thread.
+  struct Collector {
+    void clear() { count = 0; }
+    void add(const Particles<Pack>& particles, std::size_t self, const SearchSet& set, double cut2);
+    void make_room(std::size_t wanted);
+
+    std::size_t count = 0;
+    std::vector<std::int32_t> column;
+    std::array<std::vector<Real>, 4> kept;       ///< r_ij and its square, of those within reach
+    std::array<std::vector<Real>, 4> candidate;  ///< the same of all candidates of a set
+    std::vector<std::int32_t> place;             ///< of those within reach among the candidates
+    std::vector<Real> weight;
+  };
+
+  void list_row(Particles<Pack>& particles, std::size_t i, Collector& c, const Reach& reach,
+                typename SparseRows<Real>::Writer& writer, std::size_t dummies);
+
+  SparseRows<Real> rows_;
+  std::vector<std::uint16_t> dummies_;  ///< at the end of each row
+  std::vector<Collector> collectors_;
+};
+
+extern template class NeighbourList<double>;
+extern template class NeighbourList<FloatPack>;
+
+}  // namespace sluice::mps

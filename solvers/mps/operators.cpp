@@ -1,0 +1,177 @@
+#include "solvers/mps/operators.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/mps/terms.h"
+
+namespace sluice::mps {
+namespace {
+
+/// The correction matrix is used while its determinant is at least this share of the full lattice's. The flat surface
+/// of a half-filled neighbourhood has about 0.1.
+constexpr double least_determinant = 0.01;
+
+/// Calls visit(index of the first entry, number of entries) for each pack of a row's part.
+template <class Pack, class Visit>
+[[gnu::always_inline]] inline void for_packs(Span span, Visit&& visit) {
+  for (std::uint32_t k = span.begin; k < span.end; k += Lanes<Pack>::width) {
+    visit(k, static_cast<int>(std::min<std::uint32_t>(Lanes<Pack>::width, span.end - k)));
+  }
+}
+
+/// r_ij of a pack of entries [quantum].
+template <class Pack>
+[[gnu::always_inline]] inline Vec3<Pack> differences(const Particles<Pack>& p, std::size_t i,
+                                                     const std::int32_t* columns, int n) {
+  using L = Lanes<Pack>;
+  const auto& x = p.coordinate;
+  return {L::difference_at(x.x.data(), columns, n, x.x[i]), L::difference_at(x.y.data(), columns, n, x.y[i]),
+          L::difference_at(x.z.data(), columns, n, x.z[i])};
+}
+
+template <class Pack, class Real>
+[[gnu::always_inline]] inline Vec3<Pack> gathered(const VectorField<Real>& field, const std::int32_t* columns, int n) {
+  using L = Lanes<Pack>;
+  return {L::gather(field.x.data(), columns, n), L::gather(field.y.data(), columns, n),
+          L::gather(field.z.data(), columns, n)};
+}
+
+template <class Real>
+Real least_pressure(const std::vector<double>& pressure, std::size_t i, Span span, const std::int32_t* columns) {
+  double least = pressure[i];
+  for (std::uint32_t k = span.begin; k < span.end; ++k)
+    least = std::min(least, pressure[static_cast<std::size_t>(columns[k])]);
+  return static_cast<Real>(least);
+}
+
+template <class Pack>
+Vec3d lane_sums(const Vec3<Pack>& v) {
+  return {lane_sum(v.x), lane_sum(v.y), lane_sum(v.z)};
+}
+
+template <class Pack>
+Symmetric3<double> lane_sums(const Symmetric3<Pack>& m) {
+  return {lane_sum(m.xx), lane_sum(m.yy), lane_sum(m.zz), lane_sum(m.xy), lane_sum(m.xz), lane_sum(m.yz)};
+}
+
+}  // namespace
+
+template <class Pack>
+void predict_velocities(const Particles<Pack>& p, const NeighbourList<Pack>& list, const OperatorConstants& c,
+                        VectorField<typename Lanes<Pack>::Real>& predicted, int threads) {
+  using L = Lanes<Pack>;
+  using Real = typename L::Real;
+  const Pack radius(static_cast<Real>(c.parameters.effective_radius_m() / c.quantum_m));
+  const double scale = c.parameters.viscosity_m2_s * 6 / (c.lattice.lambda_m2 * c.lattice.number_density);
+  const auto n = static_cast<std::int64_t>(p.size());
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::int64_t k = static_cast<std::int64_t>(p.first_fluid()); k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const auto u = p.velocity.template at<Pack>(i);
+    Vec3<Pack> laplacian{};
+    for_packs<Pack>(list.all(i), [&](std::uint32_t at, int lanes) {
+      const std::int32_t* columns = list.columns() + at;
+      const Vec3<Pack> r = differences(p, i, columns, lanes);
+      const Pack omega = where_positive(L::first(lanes), weight(square_root(dot(r, r)), radius));
+      const auto uj = gathered<Pack>(p.velocity, columns, lanes);
+      laplacian += Vec3<Pack>{laplacian_term(u.x, uj.x, omega), laplacian_term(u.y, uj.y, omega),
+                              laplacian_term(u.z, uj.z, omega)};
+    });
+    const Vec3d rate = scale * lane_sums(laplacian) + c.parameters.gravity_m_s2;
+    predicted.set(i, p.velocity.template at<double>(i) + c.dt_s * rate);
+  }
+}
+
+template <class Pack>
+std::int64_t collide(const Particles<Pack>& p, const NeighbourList<Pack>& list, const OperatorConstants& c,
+                     VectorField<typename Lanes<Pack>::Real>& after, int threads) {
+  const auto& parameters = c.parameters;
+  const double contact = parameters.collision_over_distance * parameters.particle_distance_m;
+  // No pair comes closer by more than twice the Courant number's distance in a step, unless it is already too fast.
+  const double reach = contact + 2 * parameters.courant * parameters.particle_distance_m;
+  const double least_weight = parameters.effective_radius_m() / reach - 1;
+  const auto n = static_cast<std::int64_t>(p.size());
+  std::int64_t collided = 0;
+#pragma omp parallel for num_threads(threads) schedule(static) reduction(+ : collided)
+  for (std::int64_t k = static_cast<std::int64_t>(p.first_fluid()); k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Vec3d u = p.velocity.template at<double>(i);
+    Vec3d change;
+    bool any = false;
+    const Span span = list.all(i);
+    for (std::uint32_t at = span.begin; at < span.end; ++at) {
+      if (static_cast<double>(list.weights()[at]) <= least_weight) continue;
+      const auto j = static_cast<std::size_t>(list.columns()[at]);
+      const Vec3d r = p.position.template at<double>(j) - p.position.template at<double>(i);
+      const Vec3d relative = p.velocity.template at<double>(j) - u;
+      const Vec3d ahead = r + c.dt_s * relative;
+      if (dot(ahead, ahead) > contact * contact) continue;
+      change += collision_term(relative, r, parameters.restitution, p.is_fluid(j) ? 0.5 : 1.0);
+      any = true;
+    }
+    after.set(i, u + change);
+    collided += any && dot(change, change) > 0;
+  }
+  return collided;
+}
+
+template <class Pack>
+Vec3d pressure_gradient(const Particles<Pack>& p, const NeighbourList<Pack>& list, const OperatorConstants& c,
+                        std::size_t i, bool& plain) {
+  using L = Lanes<Pack>;
+  using Real = typename L::Real;
+  const Span span = list.with_pressure(i);
+  const Pack reference(least_pressure<Real>(p.pressure, i, span, list.columns()));
+  Vec3<Pack> sum{};
+  Symmetric3<Pack> matrix{};
+  for_packs<Pack>(span, [&](std::uint32_t at, int lanes) {
+    const std::int32_t* columns = list.columns() + at;
+    const Vec3<Pack> r = differences(p, i, columns, lanes);
+    const Pack omega = where_positive(L::first(lanes), L::load(list.weights() + at));
+    const Pack distance2 = dot(r, r);
+    sum += gradient_term(reference, L::gather(p.pressure.data(), columns, lanes), r, distance2, omega);
+    matrix += correction_term(r, distance2, omega);
+  });
+  const double n0 = c.lattice.number_density;
+  const Vec3d v = (1 / c.quantum_m) * lane_sums(sum);
+  Vec3d gradient;
+  plain = !solve(lane_sums(matrix), v, n0 / 3, least_determinant, gradient);
+  return plain ? (3 / n0) * v : gradient;
+}
+
+template <class Pack>
+CorrectionReport correct(Particles<Pack>& p, const NeighbourList<Pack>& list, const OperatorConstants& c, int threads) {
+  const auto n = static_cast<std::int64_t>(p.size());
+  std::int64_t plain_gradients = 0;
+  double greatest = 0;
+#pragma omp parallel for num_threads(threads) schedule(static) reduction(+ : plain_gradients) reduction(max : greatest)
+  for (std::int64_t k = static_cast<std::int64_t>(p.first_fluid()); k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    bool plain = false;
+    const Vec3d du = (-c.dt_s / c.parameters.density_kg_m3) * pressure_gradient(p, list, c, i, plain);
+    p.velocity.set(i, p.velocity.template at<double>(i) + du);
+    p.position.set(i, p.position.template at<double>(i) + c.dt_s * du);
+    plain_gradients += plain;
+    greatest = std::max(greatest, c.dt_s * std::sqrt(dot(du, du)));
+  }
+  return {plain_gradients, greatest};
+}
+
+template void predict_velocities(const Particles<double>&, const NeighbourList<double>&, const OperatorConstants&,
+                                 VectorField<double>&, int);
+template void predict_velocities(const Particles<FloatPack>&, const NeighbourList<FloatPack>&, const OperatorConstants&,
+                                 VectorField<float>&, int);
+template std::int64_t collide(const Particles<double>&, const NeighbourList<double>&, const OperatorConstants&,
+                              VectorField<double>&, int);
+template std::int64_t collide(const Particles<FloatPack>&, const NeighbourList<FloatPack>&, const OperatorConstants&,
+                              VectorField<float>&, int);
+template CorrectionReport correct(Particles<double>&, const NeighbourList<double>&, const OperatorConstants&, int);
+template CorrectionReport correct(Particles<FloatPack>&, const NeighbourList<FloatPack>&, const OperatorConstants&,
+                                  int);
+template Vec3d pressure_gradient(const Particles<double>&, const NeighbourList<double>&, const OperatorConstants&,
+                                 std::size_t, bool&);
+template Vec3d pressure_gradient(const Particles<FloatPack>&, const NeighbourList<FloatPack>&, const OperatorConstants&,
+                                 std::size_t, bool&);
+
+}  // namespace sluice::mps

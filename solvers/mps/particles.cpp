@@ -1,0 +1,53 @@
+#include "solvers/mps/particles.h"
+
+namespace sluice::mps {
+
+template <class Pack>
+void Particles<Pack>::resize(std::size_t dummy_count, std::size_t wall_count, std::size_t fluid_count) {
+  dummies = dummy_count;
+  walls = wall_count;
+  fluid = fluid_count;
+  position.resize(size());
+  coordinate.resize(size() + Lanes<Pack>::width);  // packs read past a run's end
+  velocity.resize(size());
+  pressure.resize(size());
+  number_density.resize(size());
+  centroid_offset.resize(size());
+  id.resize(size());
+}
+
+template <class Pack>
+void Particles<Pack>::permute_fluid(std::span<const std::int32_t> order, int threads) {
+  gather(position, order, spare_doubles_, threads, first_fluid());
+  gather(velocity, order, spare_values_, threads, first_fluid());
+  gather(pressure, order, spare_doubles_, threads, first_fluid());
+  gather(id, order, spare_ids_, threads, first_fluid());
+  if (order.size() != fluid) resize(dummies, walls, order.size());
+}
+
+template <class Pack>
+void Particles<Pack>::encode_positions(const Box& domain, std::size_t first, int threads) {
+  const double extent = longest_edge(domain);
+  const FixedPoint<Coordinate> fx(domain.lower.x, extent);
+  const FixedPoint<Coordinate> fy(domain.lower.y, extent);
+  const FixedPoint<Coordinate> fz(domain.lower.z, extent);
+  const auto n = static_cast<std::int64_t>(size());
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::int64_t k = static_cast<std::int64_t>(first); k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    coordinate.x[i] = fx.encode(position.x[i]);
+    coordinate.y[i] = fy.encode(position.y[i]);
+    coordinate.z[i] = fz.encode(position.z[i]);
+  }
+}
+
+template <class Pack>
+std::int64_t Particles<Pack>::memory_bytes() const {
+  return bytes(position) + bytes(coordinate) + bytes(velocity) + bytes(pressure) + bytes(number_density) +
+         bytes(centroid_offset) + bytes(id) + bytes(spare_doubles_) + bytes(spare_values_) + bytes(spare_ids_);
+}
+
+template struct Particles<double>;
+template struct Particles<FloatPack>;
+
+}  // namespace sluice::mps

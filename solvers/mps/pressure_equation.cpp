@@ -1,0 +1,103 @@
+#include "solvers/mps/pressure_equation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sluice::mps {
+namespace {
+
+/// With so few neighbours a particle is spray, whatever its centroid says.
+constexpr std::uint32_t few_neighbours = 4;
+
+/// n_i < beta_1 n0 and sigma_i > varrho_1 l0   Eqs. (28) and (29)
+template <class Pack>
+bool is_at_surface(const Particles<Pack>& p, const OperatorConstants& c, std::size_t i, Span neighbours) {
+  if (neighbours.end - neighbours.begin <= few_neighbours) return true;
+  const auto& parameters = c.parameters;
+  return static_cast<double>(p.number_density[i])<parameters.least_density_ratio *
+                                                  c.lattice.number_density&& static_cast<double>(p.centroid_offset[i])>
+             parameters.centroid_over_distance *
+         parameters.particle_distance_m;
+}
+
+}  // namespace
+
+template <class Pack>
+PressureEquation<Pack>::PressureEquation(const OperatorConstants& constants, const Box& domain_m, int threads)
+    : c_(constants),
+      threads_(threads),
+      multigrid_(domain_m, 2 * constants.parameters.particle_distance_m, threads),
+      conjugate_gradients_(threads) {}
+
+/// Eq. (23) times -lambda0 n0 / (2 dim).
+template <class Pack>
+void PressureEquation<Pack>::assemble(const Particles<Pack>& p, const NeighbourList<Pack>& list) {
+  const auto& parameters = c_.parameters;
+  const double scale = c_.lattice.lambda_m2 * c_.lattice.number_density / 6;
+  const double rho_per_dt2 = parameters.density_kg_m3 / (c_.dt_s * c_.dt_s);
+  const double compressibility = rho_per_dt2 * parameters.kappa_c_m_s2_kg * scale;
+  const double source = parameters.kappa_r * rho_per_dt2 * scale;
+  const double n0 = c_.lattice.number_density;
+  rows_.resize(p.size());
+  diagonal_.resize(p.size());
+  has_row_.assign(p.size(), 0);
+  right_side_.resize(p.size());
+  const auto n = static_cast<std::int64_t>(p.size());
+#pragma omp parallel for num_threads(threads_) schedule(static, 512)
+  for (std::int64_t k = static_cast<std::int64_t>(p.first_wall()); k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const bool has_row = !is_at_surface(p, c_, i, list.all(i));
+    rows_[i] = list.all(i);
+    has_row_[i] = has_row ? 1 : 0;
+    right_side_[i] = has_row ? source * (static_cast<double>(p.number_density[i]) - n0) / n0 : 0.0;
+    auto diagonal = static_cast<Real>(compressibility);
+    const Span span = list.with_pressure(i);
+    for (std::uint32_t e = span.begin; e < span.end; ++e) diagonal += list.weights()[e];
+    diagonal_[i] = diagonal;
+  }
+  matrix_ = {rows_, list.columns(), list.weights(), diagonal_, has_row_, p.first_wall(), p.size()};
+}
+
+template <class Pack>
+PressureReport PressureEquation<Pack>::solve(Particles<Pack>& p, const NeighbourList<Pack>& list) {
+  assemble(p, list);
+  PressureReport report;
+  const bool multigrid = c_.parameters.preconditioner == Preconditioner::multigrid;
+  if (multigrid) multigrid_.prepare(matrix_, p.position.x, p.position.y, p.position.z);
+  const auto precondition = [&](std::span<const double> r, std::span<double> z) {
+    if (multigrid) {
+      multigrid_.apply(r, z);
+    } else {
+      jacobi(matrix_, r, z, threads_);
+    }
+  };
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (has_row_[i] == 0) p.pressure[i] = 0;
+    report.unknowns += has_row_[i];
+  }
+  report.convergence = conjugate_gradients_.solve(matrix_, right_side_, p.pressure, precondition,
+                                                  c_.parameters.tolerance, c_.parameters.most_iterations);
+  if (!report.convergence.converged) {
+    throw NotConverged(fmt::format(
+        "the pressure equation ({} unknowns) did not converge: relative residual {:.2e} after {} iterations, {:.0e} "
+        "wanted; try a smaller courant or more iterations",
+        report.unknowns, report.convergence.relative_residual, report.convergence.iterations, c_.parameters.tolerance));
+  }
+  for (double& pressure : p.pressure) {
+    report.set_to_zero += pressure < 0;
+    pressure = std::max(0.0, pressure);
+  }
+  return report;
+}
+
+template <class Pack>
+std::int64_t PressureEquation<Pack>::memory_bytes() const {
+  return multigrid_.memory_bytes() + conjugate_gradients_.memory_bytes() + bytes(rows_) + bytes(diagonal_) +
+         bytes(has_row_) + bytes(right_side_);
+}
+
+template class PressureEquation<double>;
+template class PressureEquation<FloatPack>;
+
+}  // namespace sluice::mps

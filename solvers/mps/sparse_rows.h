@@ -1,0 +1,96 @@
+// Compressed rows that several threads fill at once. Every row says where it begins and ends, so that rows may lie in
+// memory in any order: what a row holds does not depend on which thread wrote it.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "solvers/fields.h"
+
+namespace sluice::mps {
+
+/// Rows are filled up to a multiple of this with entries of value zero, so that loops over them need no remainder.
+constexpr std::size_t row_unit = 8;
+
+/// A part of one row: entries begin .. end - 1.
+struct Span {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
+template <class Real>
+class SparseRows {
+ public:
+  void reserve(std::size_t rows, std::size_t entries) {
+    spans_.resize(rows);
+    if (entries > columns_.size()) {
+      resize(entries);
+    }
+  }
+  /// Empties all rows; the number of rows changes to the given one.
+  void clear(std::size_t rows) {
+    spans_.assign(rows, Span{});
+    used_ = 0;
+  }
+  /// Doubles the room if the last filling did not fit. True if it did not: then it must be repeated.
+  bool grew_for_more() {
+    if (used_.load() <= columns_.size()) return false;
+    const std::size_t wanted = used_.load() + used_.load() / 4;
+    resize(wanted);
+    return true;
+  }
+
+  Span& span(std::size_t row) { return spans_[row]; }
+  const Span& span(std::size_t row) const { return spans_[row]; }
+  const std::vector<Span>& spans() const { return spans_; }
+  const std::int32_t* columns() const { return columns_.data(); }
+  const Real* values() const { return values_.data(); }
+  std::size_t rows() const { return spans_.size(); }
+  std::int64_t memory_bytes() const { return bytes(spans_) + bytes(columns_) + bytes(values_); }
+
+  /// Hands out room for rows to one thread.
+  class Writer {
+   public:
+    explicit Writer(SparseRows& rows) : rows_(rows) {}
+    /// Writes one row; without room it only counts what was needed.
+    void write(std::size_t row, const std::int32_t* columns, const Real* values, std::size_t count) {
+      const std::size_t filled = (count + row_unit - 1) / row_unit * row_unit;
+      if (next_ + filled > last_) {
+        const std::size_t block = std::max<std::size_t>(filled, 4096);
+        next_ = rows_.used_.fetch_add(block);
+        last_ = next_ + block;
+      }
+      if (last_ <= rows_.columns_.size()) {
+        std::copy_n(columns, count, rows_.columns_.begin() + static_cast<std::ptrdiff_t>(next_));
+        std::copy_n(values, count, rows_.values_.begin() + static_cast<std::ptrdiff_t>(next_));
+        std::fill_n(rows_.columns_.begin() + static_cast<std::ptrdiff_t>(next_ + count), filled - count,
+                    static_cast<std::int32_t>(row));
+        std::fill_n(rows_.values_.begin() + static_cast<std::ptrdiff_t>(next_ + count), filled - count, Real{});
+        rows_.spans_[row] = {static_cast<std::uint32_t>(next_), static_cast<std::uint32_t>(next_ + count)};
+      }
+      next_ += filled;
+    }
+
+   private:
+    SparseRows& rows_;
+    std::size_t next_ = 0;
+    std::size_t last_ = 0;
+  };
+
+ private:
+  static constexpr std::size_t overread = 64;  ///< packs may read past the last entry
+
+  void resize(std::size_t entries) {
+    columns_.resize(entries);
+    values_.resize(entries + overread);
+  }
+
+  std::vector<Span> spans_;
+  std::vector<std::int32_t> columns_;
+  std::vector<Real> values_;
+  std::atomic<std::size_t> used_{0};
+};
+
+}  // namespace sluice::mps

@@ -26,6 +26,7 @@ std::map<std::string, double> complete_wcsph(const Case& c, std::map<std::string
   p.try_emplace("courant", defaults.courant);
   p.try_emplace("kernel_radius_over_distance", defaults.kernel_radius_over_distance);
   p.try_emplace("restart_interval", defaults.restart_interval);
+  p.try_emplace("wall_friction", defaults.wall_friction);
   p.try_emplace("speed_of_sound_over_sqrt_gH", 20.0);
   // A speed of sound given in m/s counts; the ratio then follows it.
   if (!p.contains("speed_of_sound_m_s")) p["speed_of_sound_m_s"] = p["speed_of_sound_over_sqrt_gH"] * wave_speed_m_s(c);
@@ -52,6 +53,7 @@ std::unique_ptr<Solver> make_wcsph(const Case& c, const Scene& scene, const RunS
   p.courant = given.at("courant");
   p.speed_of_sound_m_s = given.at("speed_of_sound_m_s");
   p.restart_interval = static_cast<int>(given.at("restart_interval"));
+  p.wall_friction = given.at("wall_friction");
   p.reference_density_kg_m3 = c.density_kg_m3;
   p.water_height_m = c.water_height_m;
   p.gravity_m_s2 = c.gravity_m_s2;
@@ -134,7 +136,7 @@ const std::vector<SolverEntry>& entries() {
       {"wcsph",
        {"extrapolated", "dynamic"},
        {"alpha", "delta", "gamma", "courant", "kernel_radius_over_distance", "restart_interval", "speed_of_sound_m_s",
-        "speed_of_sound_over_sqrt_gH"},
+        "speed_of_sound_over_sqrt_gH", "wall_friction"},
        complete_wcsph,
        make_wcsph,
        wcsph_cost},

@@ -24,12 +24,12 @@ struct PairTerms {
   Pack force;     ///< of Eq. (3), to be taken times r_ij
 };
 
-/// P_i + P_j counts as least_pressure_sum where it is below that. largest_mu, shared by all particles of a thread,
-/// grows where a pair's |mu| / h exceeds it: that is rare, and so a test is cheaper than a maximum for every pair.
+/// largest_mu, shared by all particles of a thread, grows where a pair's |mu| / h exceeds it: that is rare, and so a
+/// test is cheaper than a maximum for every pair.
 template <class Pack>
 [[gnu::always_inline]] inline PairTerms<Pack> pair_terms(const Target<Pack>& i, const Particles<Pack>& neighbours,
                                                          std::size_t j, const Pairs<Pack>& p,
-                                                         const PairConstants<Pack>& c, const Pack& least_pressure_sum,
+                                                         const PairConstants<Pack>& c, const PairLaw<Pack>& law,
                                                          Pack& largest_mu) {
   using L = Lanes<Pack>;
   const Vec3<Pack> velocity{L::load(&neighbours.velocity.x[j]), L::load(&neighbours.velocity.y[j]),
@@ -41,9 +41,9 @@ template <class Pack>
                                               i.sound + L::load(&neighbours.sound[j]));
   const Pack mu = magnitude(viscosity.mu);
   if (any_larger(mu, largest_mu, p.taper)) largest_mu = Pack(lane_max(larger(where_positive(p.taper, mu), largest_mu)));
-  const Pack pressure = larger(L::load(&neighbours.pressure[j]), least_pressure_sum - i.pressure);
+  const Pack pressure = larger(L::load(&neighbours.pressure[j]), law.least_pressure_sum - i.pressure);
   const Pack force = momentum_term(i.pressure, pressure, i.inverse_density, L::load(&neighbours.volume[j]),
-                                   c.viscosity_factor * viscosity.Pi, g);
+                                   law.viscosity_factor * viscosity.Pi, g);
   return {g, approach, force};
 }
 
@@ -58,7 +58,7 @@ void sum_fluid_pairs(const Target<Pack>& i, Particles<Pack>& fluid, const PackLi
   for (const PackOfRun& pack : packs) {
     const auto j = static_cast<std::size_t>(pack.begin);
     const Pairs<Pack> p = pairs(i.x, fluid, pack, c);
-    const PairTerms<Pack> t = pair_terms(i, fluid, j, p, c, c.any_pressure_sum, largest);
+    const PairTerms<Pack> t = pair_terms(i, fluid, j, p, c, c.with_fluid, largest);
     const Vec3<Pack> momentum = t.force * p.r;
     sums.momentum += momentum;
     L::add(&fluid.acceleration.x[j], -momentum.x, pack.count);
@@ -85,8 +85,7 @@ void sum_wall_pairs(const Target<Pack>& i, const Particles<Pack>& walls, const P
   Pack largest = largest_mu;
   for (const PackOfRun& pack : packs) {
     const Pairs<Pack> p = pairs(i.x, walls, pack, c);
-    const PairTerms<Pack> t =
-        pair_terms(i, walls, static_cast<std::size_t>(pack.begin), p, c, c.least_wall_pressure_sum, largest);
+    const PairTerms<Pack> t = pair_terms(i, walls, static_cast<std::size_t>(pack.begin), p, c, c.with_wall, largest);
     sums.momentum += t.force * p.r;
     sums.continuity += continuity_term(t.g, t.approach);
   }

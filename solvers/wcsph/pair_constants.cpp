@@ -18,12 +18,14 @@ PairConstants<Pack>::PairConstants(const Parameters& p, double quantum_m)
   weight_factor = Pack(static_cast<Real>(Wendland{h}.normalisation()));
   mass = static_cast<Real>(m);
   // Pi_ij from distances in quanta is in 1/quantum (approach over distance^2): dividing by the quantum restores metres.
-  viscosity_factor = Pack(static_cast<Real>(m * p.alpha * h / quantum_m));
+  const double viscosity = m * p.alpha * h / quantum_m;
   momentum_factor = static_cast<Real>(G0 * quantum_m);
   continuity_factor = static_cast<Real>(m * G0 * quantum_m);
   diffusion_factor = static_cast<Real>(2.0 * p.delta * h * p.speed_of_sound_m_s * G0);
-  any_pressure_sum = Pack(std::numeric_limits<Real>::lowest() / 4);
-  least_wall_pressure_sum = p.walls == WallModel::extrapolated ? Pack(0) : any_pressure_sum;
+  const Pack any_pressure_sum(std::numeric_limits<Real>::lowest() / 4);
+  with_fluid = {any_pressure_sum, Pack(static_cast<Real>(viscosity))};
+  with_wall = {p.walls == WallModel::extrapolated ? Pack(0) : any_pressure_sum,
+               Pack(static_cast<Real>(viscosity * p.wall_friction))};
   mu_factor = h / quantum_m;
   reference_density = static_cast<Real>(p.reference_density_kg_m3);
   const Vec3d g = p.gravity_m_s2;

@@ -9,6 +9,13 @@
 
 namespace sluice::wcsph {
 
+/// In what pairs with walls differ from pairs of fluid.
+template <class Pack>
+struct PairLaw {
+  Pack least_pressure_sum;  ///< P_i + P_j [Pa] counts as this where it is less
+  Pack viscosity_factor;    ///< m alpha h   [kg m], h in quanta times quanta in metres
+};
+
 /// What every pair needs to know, in the precision of the path. Pair distances are in quanta of the fixed-point
 /// coordinates (the reference path: metres); factors that a whole sum has in common are applied at its end.
 template <class Pack>
@@ -21,15 +28,14 @@ struct PairConstants {
   Pack eta2;               ///< 0.01 h^2   [quantum^2]
   Pack weight_factor;      ///< varpi   [1/m^3]
   Real mass;               ///< m = rho_0 l0^3   [kg]
-  Pack viscosity_factor;   ///< m alpha h   [kg m], h in quanta times quanta in metres
   Real momentum_factor;    ///< G0   [1/m^5], times metres a quantum
   Real continuity_factor;  ///< m G0   [kg/m^5], times metres a quantum
   Real diffusion_factor;   ///< 2 delta h c_0 G0   [1/(m^3 s)]
-  /// Least P_i + P_w of a pair with a wall [Pa]. Extrapolated walls push but do not pull: else a stretched particle of
-  /// spray is drawn through the floor. Dynamic walls are left as the paper has them.
-  Pack least_wall_pressure_sum;
-  Pack any_pressure_sum;  ///< no bound [Pa]
-  double mu_factor;       ///< h   [quantum]: |mu| in m/s from the sums' mu / h
+  PairLaw<Pack> with_fluid;
+  /// Extrapolated walls push but do not pull: else a stretched particle of spray is drawn through the floor. Dynamic
+  /// walls are left as the paper has them.
+  PairLaw<Pack> with_wall;
+  double mu_factor;  ///< h   [quantum]: |mu| in m/s from the sums' mu / h
   Real reference_density;
   Vec3<Real> gravity;              ///< [m/s^2]
   Vec3<Real> gravity_per_quantum;  ///< g times metres a quantum: r_ij . g from distances in quanta

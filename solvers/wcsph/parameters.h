@@ -29,6 +29,8 @@ struct Parameters {
   /// forty steps multiply the mode more than a restart takes from it, so that a still tank comes to the boil in two
   /// seconds. Twenty do not (wcsph_verification_test.cpp shows both).
   int restart_interval = 20;
+  /// Share of the artificial viscosity that acts between fluid and walls: 1 as between fluid particles, 0 slip.
+  double wall_friction = 1;
   WallModel walls = WallModel::extrapolated;
 
   double smoothing_length_m() const { return 0.5 * kernel_radius_over_distance * particle_distance_m; }

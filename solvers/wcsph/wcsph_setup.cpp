@@ -30,6 +30,7 @@ Parameters checked(const Parameters& p) {
   require(p.gamma == 7, "gamma", p.gamma, "7, the only exponent this solver has");
   require(p.kernel_radius_over_distance >= 2 && p.kernel_radius_over_distance <= 6, "kernel_radius_over_distance",
           p.kernel_radius_over_distance, "in [2, 6]");
+  require(p.wall_friction >= 0 && p.wall_friction <= 1, "wall_friction", p.wall_friction, "in [0, 1]");
   require(p.restart_interval >= 1, "restart_interval", p.restart_interval, "one or more");
   return p;
 }

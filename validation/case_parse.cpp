@@ -130,19 +130,6 @@ void parse_times(TomlReader& root, Case& c) {
     if (t < 0) root.fail("snapshot_times_s", fmt::format("holds {} s, must not be negative", t));
 }
 
-WallOption parse_walls(TomlReader& reader, const std::vector<WallOption>& before) {
-  WallOption walls;
-  walls.name = reader.text("name");
-  refuse_repeated_name(reader, before, walls.name);
-  walls.layers = reader.integer("layers");
-  if (walls.layers < 1 || walls.layers > 10)
-    reader.fail("layers", fmt::format("is {}, must be 1 to 10 particle layers", walls.layers));
-  walls.pressure_model = one_of(reader, "pressure_model", {"wall", "kernel", "nearest"});
-  walls.wave_height_model = one_of(reader, "wave_height_model", {"column", "top"});
-  reader.finish();
-  return walls;
-}
-
 // A case may describe a solver that this program does not have; then its parameters cannot be checked either.
 std::map<std::string, double> parse_parameters(TomlReader reader, const std::string& solver) {
   const std::vector<std::string> known = solver_parameter_names(solver);
@@ -155,11 +142,25 @@ std::map<std::string, double> parse_parameters(TomlReader reader, const std::str
   return parameters;
 }
 
+WallOption parse_walls(TomlReader& reader, const SolverOption& solver) {
+  WallOption walls;
+  walls.name = reader.text("name");
+  refuse_repeated_name(reader, solver.walls, walls.name);
+  if (reader.has("parameters")) walls.parameters = parse_parameters(reader.table("parameters"), solver.name);
+  walls.layers = reader.integer("layers");
+  if (walls.layers < 1 || walls.layers > 10)
+    reader.fail("layers", fmt::format("is {}, must be 1 to 10 particle layers", walls.layers));
+  walls.pressure_model = one_of(reader, "pressure_model", {"wall", "kernel", "nearest"});
+  walls.wave_height_model = one_of(reader, "wave_height_model", {"column", "top"});
+  reader.finish();
+  return walls;
+}
+
 SolverOption parse_solver(TomlReader& reader, const std::vector<SolverOption>& before) {
   SolverOption solver;
   solver.name = reader.text("name");
   refuse_repeated_name(reader, before, solver.name);
-  for (TomlReader& walls : reader.tables("walls")) solver.walls.push_back(parse_walls(walls, solver.walls));
+  for (TomlReader& walls : reader.tables("walls")) solver.walls.push_back(parse_walls(walls, solver));
   solver.default_walls = one_of(reader, "default_walls", names_of(solver.walls));
   solver.parameters = parse_parameters(reader.table("parameters"), solver.name);
   reader.finish();

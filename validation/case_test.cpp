@@ -103,6 +103,9 @@ TEST(Case, UnknownKeysNameFileLineAndKeyAndTheLikelyOne) {
 TEST(Case, SolverParametersMustBeKnownToTheSolver) {
   EXPECT_EQ(error_of("alpha = 0.01", "alfa = 0.01"),
             "small.toml:33: solvers[0].parameters.alfa: unknown parameter of solver wcsph (did you mean `alpha`?)");
+  EXPECT_EQ(error_of("layers = 3", "layers = 3, parameters = { delto = 0.1 }"),
+            "small.toml:31: solvers[0].walls[0].parameters.delto: unknown parameter of solver wcsph (did you mean "
+            "`delta`?)");
 }
 
 TEST(Case, WrongTypesNameTheirLine) {

@@ -96,6 +96,7 @@ RunSettings resolve_settings(const Case& c, const RunRequest& request) {
   if (request.threads < 0) throw std::invalid_argument("threads: must be 1 or more (or 0 for all processors)");
   settings.threads = request.threads > 0 ? request.threads : omp_get_num_procs();
   settings.parameters = solver.parameters;
+  for (const auto& [key, value] : walls.parameters) settings.parameters[key] = value;
   for (const auto& [key, value] : request.overrides) apply_override(settings, key, value);
   settings.parameters = complete_parameters(c, settings.solver, settings.parameters);
   settings.snapshot_times_s = choose_snapshots(c, request, settings.t_end_s);

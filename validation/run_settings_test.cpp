@@ -61,6 +61,16 @@ TEST(RunSettings, DynamicWallsHaveOneLayer) {
   EXPECT_EQ(resolve_settings(kleefsman(), request).wall_layers, 1);
 }
 
+TEST(RunSettings, WallModelsHaveDefaultsOfTheirOwnThatGiveWayToOverrides) {
+  RunRequest request;
+  EXPECT_EQ(resolve_settings(kleefsman(), request).parameters.at("wall_friction"), 0);
+  request.overrides = {{"wall_friction", 0.5}};
+  EXPECT_EQ(resolve_settings(kleefsman(), request).parameters.at("wall_friction"), 0.5);
+  request.overrides = {};
+  request.walls = "dynamic";
+  EXPECT_EQ(resolve_settings(kleefsman(), request).parameters.at("wall_friction"), 1);
+}
+
 TEST(RunSettings, UnknownNamesSayWhatThereIs) {
   RunRequest request;
   request.walls = "dinamic";

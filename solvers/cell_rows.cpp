@@ -12,11 +12,11 @@
 namespace sluice {
 
 RowGeometry::RowGeometry(const Box& domain_m, double radius, double slack, double slice)
-    : domain(domain_m), radius_m(radius), slack_m(slack), edge_m(radius + 2 * slack), slice_m(slice) {
+    : domain(domain_m), radius_m(radius), slack_m(slack), edge_m((radius + 2 * slack) / reach_rows), slice_m(slice) {
   const auto cells = [](double length, double width) { return std::floor(length / width) + 1; };
   const double x = cells(domain.upper.x - domain.lower.x, slice_m);
-  const double y = cells(domain.upper.y - domain.lower.y, edge_m) + 2;
-  const double z = cells(domain.upper.z - domain.lower.z, edge_m) + 2;
+  const double y = cells(domain.upper.y - domain.lower.y, edge_m) + 2 * reach_rows;
+  const double z = cells(domain.upper.z - domain.lower.z, edge_m) + 2 * reach_rows;
   if (!(x * y * z < 2e9)) {
     throw std::invalid_argument(
         fmt::format("the domain has {:.3g} search slices, too many to index: choose a larger l0", x * y * z));
@@ -101,52 +101,79 @@ void RowIndex::sort_row_into_slices(std::int32_t row, std::span<const double> x,
 
 RowIndex::Stencil RowIndex::stencil(const RowGeometry& g) {
   Stencil s;
-  s.y_offset.fill(2 * static_cast<float>(g.edge_m));
+  s.y_offset.fill(1 + 2 * static_cast<float>(g.radius_m + g.edge_m));
   const auto edge = static_cast<float>(g.edge_m);
-  for (std::size_t k = 0; k < 9; ++k) {
-    const auto y = static_cast<std::int32_t>(k % 3) - 1;
-    const auto z = static_cast<std::int32_t>(k / 3) - 1;
-    s.y_offset[k] = y > 0 ? edge : 0;
-    s.z_offset[k] = z > 0 ? edge : 0;
-    s.y_slope[k] = static_cast<float>(-y);
-    s.z_slope[k] = static_cast<float>(-z);
-    s.base[k] = (z * g.ny + y) * (g.nx + 1);
+  // To the lower side of rows further on, to the upper side of rows before.
+  const auto offset = [&](std::int32_t rows) {
+    return edge * static_cast<float>(rows > 0 ? rows : rows < 0 ? -rows - 1 : 0);
+  };
+  const auto slope = [](std::int32_t rows) { return static_cast<float>(rows > 0 ? -1 : rows < 0 ? 1 : 0); };
+  std::size_t next_forward = 0;
+  std::size_t next_backward = Stencil::half;
+  constexpr std::int32_t far = reach_rows;
+  for (std::int32_t y = -far; y <= far; ++y) {
+    for (std::int32_t z = -far; z <= far; ++z) {
+      const std::size_t k = y > 0 || (y == 0 && z >= 0) ? next_forward++ : next_backward++;
+      s.y_offset[k] = offset(y);
+      s.z_offset[k] = offset(z);
+      s.y_slope[k] = slope(y);
+      s.z_slope[k] = slope(z);
+      s.base[k] = (z * g.ny + y) * (g.nx + 1);
+    }
   }
   return s;
 }
 
-/// All nine rows at once: the chord that the kernel's sphere cuts out of each gives the slices to visit.
-Runs RowIndex::neighbours(const Vec3d& point, std::int32_t row, double travel_m) const {
-  using Integers = Lanes<FloatPack>::Integers;
+RowIndex::Row RowIndex::row_search(std::int32_t row) const {
   const RowGeometry& g = geometry_;
   const std::int32_t jz = row / g.ny;
   const std::int32_t jy = row - jz * g.ny;
-  const auto y = static_cast<float>(point.y - g.domain.lower.y - (jy - 1) * g.edge_m);
-  const auto z = static_cast<float>(point.z - g.domain.lower.z - (jz - 1) * g.edge_m);
-  const auto x = static_cast<float>((point.x - g.domain.lower.x) / g.slice_m);
-  const auto travel = static_cast<float>(travel_m);
+  return {g.domain.lower.y + (jy - reach_rows) * g.edge_m, g.domain.lower.z + (jz - reach_rows) * g.edge_m,
+          &start_[at(row, 0)]};
+}
+
+/// All rows at once: the chord that the kernel's sphere cuts out of each gives the slices to visit.
+[[gnu::always_inline]] inline void RowIndex::find_runs(const Vec3d& point, const Row& row, double travel_m,
+                                                       std::size_t first_lane, std::span<Run> runs) const {
+  using Integers = Lanes<FloatPack>::Integers;
+  const RowGeometry& g = geometry_;
+  const auto y = static_cast<float>(point.y - row.y_m);
+  const auto z = static_cast<float>(point.z - row.z_m);
   const auto per_slice = static_cast<float>(1.0 / g.slice_m);
+  const auto x = static_cast<float>(point.x - g.domain.lower.x) * per_slice;
+  const auto travel = static_cast<float>(travel_m);
   const auto radius2 = static_cast<float>(g.radius_m * g.radius_m);
   const float rounding_slices = 0.001F;
-  std::array<std::int32_t, Stencil::lanes> low;
-  std::array<std::int32_t, Stencil::lanes> high;
-  for (std::size_t k = 0; k < Stencil::lanes; k += FloatPack::size()) {
-    const auto load = [&](const auto& values) { return FloatPack(&values[k], stdx::element_aligned); };
+  std::array<std::int32_t, Stencil::half> low;
+  std::array<std::int32_t, Stencil::half> high;
+  for (std::size_t k = 0; k < Stencil::half; k += FloatPack::size()) {
+    const auto load = [&](const auto& values) { return FloatPack(&values[first_lane + k], stdx::element_aligned); };
     const FloatPack dy = larger(load(stencil_.y_offset) + load(stencil_.y_slope) * y - travel, FloatPack(0));
     const FloatPack dz = larger(load(stencil_.z_offset) + load(stencil_.z_slope) * z - travel, FloatPack(0));
     const FloatPack chord2 = radius2 - dy * dy - dz * dz;
     const FloatPack reach =
         square_root(larger(chord2, FloatPack(0))) * per_slice + (travel * per_slice + rounding_slices);
-    const Integers base(&stencil_.base[k], stdx::element_aligned);
+    const Integers base(&stencil_.base[first_lane + k], stdx::element_aligned);
     const FloatPack first = larger(x - reach, FloatPack(0));
     FloatPack last = smaller(x + reach, FloatPack(static_cast<float>(g.nx - 1))) + 1.0F;
     stdx::where(chord2 <= 0.0F, last) = first;
     (base + stdx::static_simd_cast<Integers>(first)).copy_to(&low[k], stdx::element_aligned);
     (base + stdx::static_simd_cast<Integers>(last)).copy_to(&high[k], stdx::element_aligned);
   }
-  const std::int32_t* const own = &start_[at(row, 0)];
+  for (std::size_t r = 0; r < runs.size(); ++r) runs[r] = {row.start[low[r]], row.start[high[r]]};
+}
+
+Runs RowIndex::neighbours(const Vec3d& point, const Row& row, double travel_m) const {
   Runs runs;
-  for (std::size_t r = 0; r < runs.size(); ++r) runs[r] = {own[low[r]], own[high[r]]};
+  constexpr std::size_t ahead = std::tuple_size_v<ForwardRuns>;
+  find_runs(point, row, travel_m, 0, std::span(runs).first<ahead>());
+  find_runs(point, row, travel_m, Stencil::half, std::span(runs).subspan<ahead>());
+  return runs;
+}
+
+ForwardRuns RowIndex::forward(const Vec3d& point, const Row& row, double travel_m) const {
+  ForwardRuns runs;
+  find_runs(point, row, travel_m, 0, runs);
   return runs;
 }
 
@@ -158,8 +185,8 @@ bool RowIndex::any_near(const Vec3d& point) const {
   const double reach = g.radius_m + g.slack_m;
   const auto low = std::max(0, static_cast<std::int32_t>((x0 - reach) / g.slice_m));
   const auto high = std::min(g.nx - 1, static_cast<std::int32_t>((x0 + reach) / g.slice_m));
-  for (std::int32_t z = jz - 1; z <= jz + 1; ++z) {
-    for (std::int32_t y = jy - 1; y <= jy + 1; ++y) {
+  for (std::int32_t z = jz - reach_rows; z <= jz + reach_rows; ++z) {
+    for (std::int32_t y = jy - reach_rows; y <= jy + reach_rows; ++y) {
       const std::int32_t row = z * g.ny + y;
       if (start_[at(row, low)] < start_[at(row, high + 1)]) return true;
     }
@@ -172,6 +199,34 @@ std::int64_t RowIndex::memory_bytes() const {
     return static_cast<std::int64_t>(v.capacity() * sizeof(std::int32_t));
   };
   return bytes(order_) + bytes(by_row_) + bytes(row_start_) + bytes(start_);
+}
+
+Proximity::Proximity(const RowIndex& index) : geometry_(index.geometry()) {
+  const RowGeometry& g = geometry_;
+  near_.resize(static_cast<std::size_t>(g.rows()) * static_cast<std::size_t>(g.nx), 0);
+  const auto reach = static_cast<std::int32_t>(g.radius_m / g.slice_m) + 1;
+  std::vector<std::uint8_t> in_reach(static_cast<std::size_t>(g.nx));
+  for (std::int32_t row = 0; row < g.rows(); ++row) {
+    // Slices that lie within reach of a particle of this row, then the rows around it.
+    std::fill(in_reach.begin(), in_reach.end(), std::uint8_t{0});
+    bool any = false;
+    for (std::int32_t s = 0; s < g.nx; ++s) {
+      const Run here = index.slices(row, s, s + 1);
+      if (here.begin == here.end) continue;
+      any = true;
+      std::fill(in_reach.begin() + std::max(0, s - reach), in_reach.begin() + std::min(g.nx, s + reach + 1),
+                std::uint8_t{1});
+    }
+    if (!any) continue;
+    constexpr std::int32_t far = reach_rows;
+    for (std::int32_t z = -far; z <= far; ++z) {
+      for (std::int32_t y = -far; y <= far; ++y) {
+        const std::int32_t other = row + z * g.ny + y;
+        std::uint8_t* const near = &near_[static_cast<std::size_t>(other) * static_cast<std::size_t>(g.nx)];
+        for (std::size_t s = 0; s < in_reach.size(); ++s) near[s] |= in_reach[s];
+      }
+    }
+  }
 }
 
 }  // namespace sluice

@@ -19,8 +19,16 @@ struct Run {
   std::int32_t end = 0;
 };
 
-/// Nine runs, empty ones among them.
-using Runs = std::array<Run, 9>;
+/// How many rows away a neighbour may be, along y and z. Two, with rows half as wide, fit the sphere better (120
+/// candidates a particle instead of 190) but were slower: runs become shorter than a vector.
+constexpr std::int32_t reach_rows = 1;
+constexpr std::size_t rows_around = (2 * reach_rows + 1) * (2 * reach_rows + 1);
+
+/// The runs around a particle, empty ones among them; its own row's comes first, then those of the other rows that come
+/// after it.
+using Runs = std::array<Run, rows_around>;
+/// The first of them: with the own row's from the particle on, they visit every pair once.
+using ForwardRuns = std::array<Run, (rows_around + 1) / 2>;
 
 /// The geometry of rows and slices over a domain.
 struct RowGeometry {
@@ -33,12 +41,12 @@ struct RowGeometry {
   std::int32_t ny = 0;
   std::int32_t nz = 0;
 
-  /// One empty row on each side, so that every particle has nine rows around it.
+  /// Empty rows on each side, so that every particle has all rows around it.
   RowGeometry(const Box& domain_m, double radius_m, double slack_m, double slice_m);
 
   std::int32_t rows() const { return ny * nz; }
-  std::int32_t row_y(double y) const { return static_cast<std::int32_t>((y - domain.lower.y) / edge_m) + 1; }
-  std::int32_t row_z(double z) const { return static_cast<std::int32_t>((z - domain.lower.z) / edge_m) + 1; }
+  std::int32_t row_y(double y) const { return static_cast<std::int32_t>((y - domain.lower.y) / edge_m) + reach_rows; }
+  std::int32_t row_z(double z) const { return static_cast<std::int32_t>((z - domain.lower.z) / edge_m) + reach_rows; }
   std::int32_t row(double y, double z) const { return row_z(z) * ny + row_y(y); }
   std::int32_t slice(double x) const { return static_cast<std::int32_t>((x - domain.lower.x) / slice_m); }
 };
@@ -58,16 +66,28 @@ class RowIndex {
   std::int32_t size() const { return static_cast<std::int32_t>(order_.size()); }
   /// Particles of one row.
   Run row(std::int32_t row) const { return {start_[at(row, 0)], start_[at(row, geometry_.nx)]}; }
+  /// Particles of slices first .. last - 1 of a row.
+  Run slices(std::int32_t row, std::int32_t first, std::int32_t last) const {
+    return {start_[at(row, first)], start_[at(row, last)]};
+  }
   const RowGeometry& geometry() const { return geometry_; }
 
   /// The runs that hold every particle within the kernel's radius of a point, if no particle has travelled more than
   /// travel_m since the sort (travel_m <= slack).
   Runs neighbours(const Vec3d& point_m, double travel_m) const {
-    return neighbours(point_m, geometry_.row(point_m.y, point_m.z), travel_m);
+    return neighbours(point_m, row_search(geometry_.row(point_m.y, point_m.z)), travel_m);
   }
-  /// The same for a point that lay in `row` when the particles were sorted and may have left it since. Run k lies in
-  /// the row k % 3 - 1 further along y and k / 3 - 1 further up.
-  Runs neighbours(const Vec3d& point_m, std::int32_t row, double travel_m) const;
+  /// What the searches of all particles of one row have in common.
+  struct Row {
+    double y_m = 0;  ///< its lower sides
+    double z_m = 0;
+    const std::int32_t* start = nullptr;  ///< of its slices
+  };
+  Row row_search(std::int32_t row) const;
+  /// As above for a point that lay in `row` when the particles were sorted and may have left it since.
+  Runs neighbours(const Vec3d& point_m, const Row& row, double travel_m) const;
+  /// The own row and those that come after it: further along y by up to reach_rows, or at the same y and higher.
+  ForwardRuns forward(const Vec3d& point_m, const Row& row, double travel_m) const;
 
   /// Whether a particle may come within the kernel's radius of a point before the next sort. May say yes for one that
   /// stays a little beyond it, never no for one that does not.
@@ -83,15 +103,18 @@ class RowIndex {
                       int threads);
   void sort_row_into_slices(std::int32_t row, std::span<const double> x, std::vector<std::int32_t>& scratch);
 
-  /// One lane for each of the nine rows around a point (the others never match): the distance to the row across y is
-  /// y_offset + y_slope * y, where y is measured from the own row's lower side; z likewise; base is the row's offset in
-  /// start_.
+  /// One lane for each of the rows around a point, those of forward() in the first half; lanes to spare never match.
+  /// The distance to the row across y is y_offset + y_slope * y, where y is measured from the own row's lower side; z
+  /// likewise; base is the row's offset in start_.
   struct Stencil {
-    static constexpr std::size_t lanes = 16;
+    static constexpr std::size_t half = 16;
+    static constexpr std::size_t lanes = 2 * half;
     std::array<float, lanes> y_offset{}, y_slope{}, z_offset{}, z_slope{};
     std::array<std::int32_t, lanes> base{};
   };
   static Stencil stencil(const RowGeometry& geometry);
+  /// Writes the runs of the stencil's lanes first .. first + count - 1.
+  void find_runs(const Vec3d& point_m, const Row& row, double travel_m, std::size_t first, std::span<Run> runs) const;
 
   RowGeometry geometry_;
   Stencil stencil_;
@@ -99,6 +122,25 @@ class RowIndex {
   std::vector<std::int32_t> by_row_;     ///< the order after the first pass
   std::vector<std::int32_t> row_start_;  ///< rows + 1
   std::vector<std::int32_t> start_;      ///< first particle of each slice, (nx + 1) a row
+};
+
+/// Which points may have particles of a set that does not move within the kernel's radius: a look-up of one byte.
+class Proximity {
+ public:
+  /// The index must be sorted.
+  explicit Proximity(const RowIndex& index);
+
+  /// May say yes for a point a little too far away, never no for one that is not. The point must lie in the domain.
+  bool any_near(const Vec3d& point_m) const {
+    return near_[static_cast<std::size_t>(geometry_.row(point_m.y, point_m.z)) *
+                     static_cast<std::size_t>(geometry_.nx) +
+                 static_cast<std::size_t>(geometry_.slice(point_m.x))] != 0;
+  }
+  std::int64_t memory_bytes() const { return static_cast<std::int64_t>(near_.capacity()); }
+
+ private:
+  RowGeometry geometry_;
+  std::vector<std::uint8_t> near_;  ///< by row and slice
 };
 
 }  // namespace sluice

@@ -76,8 +76,9 @@ TEST(RowIndex, StillFindsThemAfterTheAllowedTravel) {
   for (std::size_t i = 0; i < 300; ++i) expect_all_found(index, cloud, cloud.at(i * 10), travel);
   // A particle that has left the row it was sorted into is looked up by that row.
   for (std::size_t i = 0; i < cloud.x.size(); i += 10) {
-    const auto runs = index.neighbours(cloud.at(i), row[i], travel);
-    const bool own = static_cast<std::size_t>(runs[4].begin) <= i && i < static_cast<std::size_t>(runs[4].end);
+    const auto runs = index.neighbours(cloud.at(i), index.row_search(row[i]), travel);
+    const bool own =
+        static_cast<std::size_t>(runs.front().begin) <= i && i < static_cast<std::size_t>(runs.front().end);
     EXPECT_TRUE(own);
   }
 }
@@ -108,6 +109,27 @@ TEST(RowIndex, EmptyAndSparseSetsHaveEmptyRuns) {
   index.sort({}, {}, {}, {}, 2);
   for (const sluice::Run& run : index.neighbours({0.5, 0.2, 0.1}, 0)) EXPECT_EQ(run.begin, run.end);
   EXPECT_FALSE(index.any_near({0.5, 0.2, 0.1}));
+}
+
+TEST(Proximity, MissesNoPointThatHasAParticleInReach) {
+  Cloud cloud(40);
+  RowIndex index({domain, 0.09, 0.004, 0.015});
+  index.sort(cloud.x, cloud.y, cloud.z, {}, 1);
+  const Proximity proximity(index);
+  const Cloud points(2000, 11);
+  int far = 0;
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    double least2 = 1;
+    for (std::size_t j = 0; j < cloud.x.size(); ++j) {
+      const Vec3d d = cloud.at(j) - points.at(i);
+      least2 = std::min(least2, dot(d, d));
+    }
+    if (least2 <= 0.09 * 0.09) {
+      EXPECT_TRUE(proximity.any_near(points.at(i)));
+    }
+    far += !proximity.any_near(points.at(i));
+  }
+  EXPECT_GT(far, 50);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Sums over the neighbours of fluid particles.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "solvers/wcsph/neighbour_packs.h"
 #include "solvers/wcsph/terms.h"
@@ -102,32 +104,81 @@ void add_sums(Particles<Pack>& fluid, std::size_t i, const FluidSums<Pack>& sums
   fluid.density_rate[i] += lane_sum(c.continuity_factor * sums.continuity + c.diffusion_factor * sums.diffusion);
 }
 
-/// The runs of the rows that come after the own one, and of the own row what comes after particle i: with them each
-/// pair is visited once. All lie in the own slab (the rows at one y) or in the next.
-inline Runs forward(Runs runs, std::size_t i) {
-  for (const std::size_t k : {0U, 1U, 3U, 6U}) runs[k] = {};
-  runs[4].begin = static_cast<std::int32_t>(i) + 1;
-  return runs;
-}
-
-/// All pairs of the fluid particles of one row.
+/// The loop over the particles of a run. Each particle's packs are listed before the sums of the one before it, so that
+/// the search's latency is hidden behind them.
 template <class Pack>
-void sum_row(Particles<Pack>& fluid, const Sorted<Pack>& fluid_neighbours, const Sorted<Pack>& wall_neighbours,
-             std::int32_t row, const PairConstants<Pack>& c, PackList<Pack>& packs, Pack& largest_mu) {
-  const Run targets = fluid_neighbours.index.row(row);
-  for (auto i = static_cast<std::size_t>(targets.begin); i < static_cast<std::size_t>(targets.end); ++i) {
-    const Target<Pack> target(fluid, i, c);
-    const Vec3d x = fluid.position.template at<double>(i);
-    FluidSums<Pack> sums;
-    packs.list(forward(fluid_neighbours.index.neighbours(x, row, fluid_neighbours.travel_m), i));
-    sum_fluid_pairs(target, fluid, packs, c, sums, largest_mu);
-    if (wall_neighbours.index.any_near(x)) {
-      packs.list(wall_neighbours.index.neighbours(x, wall_neighbours.travel_m));
-      sum_wall_pairs(target, wall_neighbours.particles, packs, c, sums, largest_mu);
+class RunSums {
+ public:
+  RunSums(Particles<Pack>& fluid, const Sorted<Pack>& fluid_neighbours, const SortedWalls<Pack>& walls,
+          const PairConstants<Pack>& constants)
+      : fluid_(fluid), neighbours_(fluid_neighbours), walls_(walls), c_(constants) {}
+
+  void sum(const Run& targets, std::int32_t row) {
+    const auto end = static_cast<std::size_t>(targets.end);
+    const RowIndex::Row search = neighbours_.index.row_search(row);
+    if (targets.begin < targets.end) list(static_cast<std::size_t>(targets.begin), search);
+    for (auto i = static_cast<std::size_t>(targets.begin); i < end; ++i) {
+      if (i + 1 < end) list(i + 1, search);
+      sum_particle(i);
     }
-    add_sums(fluid, i, sums, c);
   }
-}
+  const Pack& largest_mu() const { return largest_mu_; }
+
+ private:
+  void list(std::size_t i, const RowIndex::Row& search) {
+    ForwardRuns runs = neighbours_.index.forward(fluid_.position.template at<double>(i), search, neighbours_.travel_m);
+    runs.front().begin = static_cast<std::int32_t>(i) + 1;
+    packs_[i % 2].list(runs);
+  }
+
+  void sum_particle(std::size_t i) {
+    const Target<Pack> target(fluid_, i, c_);
+    FluidSums<Pack> sums;
+    sum_fluid_pairs(target, fluid_, packs_[i % 2], c_, sums, largest_mu_);
+    const Vec3d x = fluid_.position.template at<double>(i);
+    if (walls_.proximity.any_near(x)) {
+      wall_packs_.list(walls_.sorted.index.neighbours(x, walls_.sorted.travel_m));
+      sum_wall_pairs(target, walls_.sorted.particles, wall_packs_, c_, sums, largest_mu_);
+    }
+    add_sums(fluid_, i, sums, c_);
+  }
+
+  Particles<Pack>& fluid_;
+  const Sorted<Pack>& neighbours_;
+  const SortedWalls<Pack>& walls_;
+  const PairConstants<Pack> c_;
+  std::array<PackList<Pack>, 2> packs_;
+  PackList<Pack> wall_packs_;
+  Pack largest_mu_{0};
+};
+
+/// Blocks of the fluid that write to themselves and to their neighbours only: `length` slices of all rows at one y.
+/// Blocks of one colour have others between them and run side by side, colour after colour, so that every particle
+/// receives its terms in the same order whatever the number of threads.
+struct Blocks {
+  static constexpr std::int32_t y_colours = reach_rows + 1;
+  static constexpr std::int32_t colours = 2 * y_colours;
+
+  explicit Blocks(const RowGeometry& geometry) : g(geometry) {
+    const double reach = 2 * (g.radius_m + 2 * g.slack_m) / g.slice_m + 2;  // so that a block between two parts them
+    length = std::max(static_cast<std::int32_t>(reach) + 1, 48);
+    along_x = (g.nx + length - 1) / length;
+  }
+  std::int32_t count(std::int32_t colour) const { return of(along_x, 2, colour % 2) * of(g.ny, y_colours, colour / 2); }
+  /// Slab and first slice of block b of a colour.
+  std::pair<std::int32_t, std::int32_t> place(std::int32_t colour, std::int32_t b) const {
+    const std::int32_t n = of(along_x, 2, colour % 2);
+    return {colour / 2 + y_colours * (b / n), length * (colour % 2 + 2 * (b % n))};
+  }
+  /// How many of 0 .. n - 1 are `rest` modulo `divisor`.
+  static std::int32_t of(std::int32_t n, std::int32_t divisor, std::int32_t rest) {
+    return (n - rest + divisor - 1) / divisor;
+  }
+
+  const RowGeometry& g;
+  std::int32_t length = 0;
+  std::int32_t along_x = 0;
+};
 
 template <class Pack>
 void clear_rates(Particles<Pack>& fluid, int threads) {
@@ -159,34 +210,33 @@ double finish_rates(Particles<Pack>& fluid, const PairConstants<Pack>& c, int th
 }  // namespace
 
 template <class Pack>
-StepLimits sum_fluid_rates(Particles<Pack>& fluid, const Sorted<Pack>& fluid_neighbours,
-                           const Sorted<Pack>& wall_neighbours, const PairConstants<Pack>& constants, int threads) {
+StepLimits sum_fluid_rates(Particles<Pack>& fluid, const Sorted<Pack>& fluid_neighbours, const SortedWalls<Pack>& walls,
+                           const PairConstants<Pack>& constants, int threads) {
   const RowGeometry& geometry = fluid_neighbours.index.geometry();
+  const Blocks blocks(geometry);
   clear_rates(fluid, threads);
   double mu = 0;
 #pragma omp parallel num_threads(threads) reduction(max : mu)
   {
-    const PairConstants<Pack> c = constants;
-    PackList<Pack> packs;
-    Pack largest_mu(0);
-    // A slab writes to itself and to the next one. So even slabs run side by side, and odd ones after them: whatever
-    // the number of threads, every particle receives its terms in the same order.
-    for (const std::int32_t parity : {0, 1}) {
+    RunSums<Pack> sums(fluid, fluid_neighbours, walls, constants);
+    for (std::int32_t colour = 0; colour < Blocks::colours; ++colour) {
 #pragma omp for schedule(dynamic, 1)
-      for (std::int32_t slab = parity; slab < geometry.ny; slab += 2) {
+      for (std::int32_t b = 0; b < blocks.count(colour); ++b) {
+        const auto [slab, slice] = blocks.place(colour, b);
         for (std::int32_t z = 0; z < geometry.nz; ++z) {
-          sum_row(fluid, fluid_neighbours, wall_neighbours, z * geometry.ny + slab, c, packs, largest_mu);
+          const std::int32_t row = z * geometry.ny + slab;
+          sums.sum(fluid_neighbours.index.slices(row, slice, std::min(slice + blocks.length, geometry.nx)), row);
         }
       }
     }
-    mu = static_cast<double>(lane_max(largest_mu)) * c.mu_factor;
+    mu = static_cast<double>(lane_max(sums.largest_mu())) * constants.mu_factor;
   }
   return {finish_rates(fluid, constants, threads), mu};
 }
 
-template StepLimits sum_fluid_rates(Particles<double>&, const Sorted<double>&, const Sorted<double>&,
+template StepLimits sum_fluid_rates(Particles<double>&, const Sorted<double>&, const SortedWalls<double>&,
                                     const PairConstants<double>&, int);
-template StepLimits sum_fluid_rates(Particles<FloatPack>&, const Sorted<FloatPack>&, const Sorted<FloatPack>&,
+template StepLimits sum_fluid_rates(Particles<FloatPack>&, const Sorted<FloatPack>&, const SortedWalls<FloatPack>&,
                                     const PairConstants<FloatPack>&, int);
 
 }  // namespace sluice::wcsph

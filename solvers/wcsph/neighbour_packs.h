@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "solvers/cell_rows.h"
@@ -16,12 +17,13 @@ struct PackOfRun {
   std::int32_t count;
 };
 
-/// The packs of nine runs. They are listed first, so that the loop over pairs has one exit a particle instead of one a
-/// run: four packs of every run are written without a branch, whether it has them or not; longer runs are rare.
+/// The packs of a particle's runs. They are listed first, so that the loop over pairs has one exit a particle instead
+/// of one a run: four packs of every run are written without a branch, whether it has them or not; longer runs are
+/// rare.
 template <class Pack>
 class PackList {
  public:
-  void list(const Runs& runs) {
+  void list(std::span<const Run> runs) {
     size_ = 0;
     for (const Run& run : runs) {
       if (packs_.size() < size_ + at_once) packs_.resize(2 * packs_.size());

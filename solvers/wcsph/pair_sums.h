@@ -50,6 +50,13 @@ struct Sorted {
   double travel_m = 0;
 };
 
+/// Wall particles do not move, so that it is known beforehand where they are near.
+template <class Pack>
+struct SortedWalls {
+  Sorted<Pack> sorted;
+  const Proximity& proximity;
+};
+
 /// The largest values over all particles that limit the time step.
 struct StepLimits {
   double acceleration_m_s2 = 0;  ///< max |f_i|
@@ -59,7 +66,7 @@ struct StepLimits {
 /// Acceleration and density rate of every fluid particle from fluid and wall neighbours: Eq. (3) and (7).
 template <class Pack>
 StepLimits sum_fluid_rates(Particles<Pack>& fluid, const Sorted<Pack>& fluid_neighbours,
-                           const Sorted<Pack>& wall_neighbours, const PairConstants<Pack>& c, int threads);
+                           const SortedWalls<Pack>& wall_neighbours, const PairConstants<Pack>& c, int threads);
 
 /// Density rate of the wall particles in `wet` from its fluid neighbours: the first term of Eq. (7), for dynamic walls.
 template <class Pack>

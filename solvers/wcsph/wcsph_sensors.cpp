@@ -60,7 +60,7 @@ PressureReading WcsphSolver<Pack>::wall_pressure(const Vec3d& point_m) const {
   const Tank::Face face = tank_.nearest_face(point_m);
   double sum = 0;
   int count = 0;
-  for_each_near(sorted_walls(), point_m, [&](std::size_t j, double distance) {
+  for_each_near(sorted_walls().sorted, point_m, [&](std::size_t j, double distance) {
     const Vec3d p = walls_.position.template at<double>(j);
     const double from_face = std::abs((face.axis == 0 ? p.x : face.axis == 1 ? p.y : p.z) - face.coordinate_m);
     if (wall_layer_[j] != 0 || distance > h || from_face > 0.75 * parameters_.particle_distance_m) return;
@@ -96,7 +96,7 @@ std::int64_t WcsphSolver<Pack>::count_pairs() const {
   for (std::int64_t i = 0; i < n; ++i) {
     const Vec3d x = fluid_.position.template at<double>(static_cast<std::size_t>(i));
     for_each_near(sorted_fluid(), x, [&](std::size_t, double) { ++pairs; });
-    for_each_near(sorted_walls(), x, [&](std::size_t, double) { ++pairs; });
+    for_each_near(sorted_walls().sorted, x, [&](std::size_t, double) { ++pairs; });
   }
   return pairs - n;
 }

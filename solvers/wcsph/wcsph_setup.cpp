@@ -49,7 +49,8 @@ WcsphSolver<Pack>::WcsphSolver(const Scene& scene, const Parameters& parameters,
       tank_(scene),
       constants_(parameters_, FixedPoint<typename Lanes<Pack>::Coordinate>::quantum_m(longest_edge(tank_.domain()))),
       fluid_index_(rows(tank_, parameters_)),
-      wall_index_(rows(tank_, parameters_)) {
+      wall_index_(rows(tank_, parameters_)),
+      wall_proximity_(wall_index_) {
   place_walls(scene);
   place_fluid(scene);
   if (parameters_.walls == WallModel::dynamic) {
@@ -79,6 +80,7 @@ void WcsphSolver<Pack>::place_walls(const Scene& scene) {
     walls_.id[i] = static_cast<std::int32_t>(scene.fluid.size() + i);
   }
   wall_index_.sort(walls_.position.x, walls_.position.y, walls_.position.z, {}, threads_);
+  wall_proximity_ = Proximity(wall_index_);
   walls_.permute(wall_index_.order(), threads_);
   walls_.encode_positions(tank_.domain(), 0, walls_.n);
   for (const std::int32_t old : wall_index_.order()) {
@@ -98,6 +100,7 @@ void WcsphSolver<Pack>::fill_hydrostatically(Particles<Pack>& particles, std::si
 template <class Pack>
 std::int64_t WcsphSolver<Pack>::memory_bytes() const {
   return fluid_.memory_bytes() + walls_.memory_bytes() + fluid_index_.memory_bytes() + wall_index_.memory_bytes() +
+         wall_proximity_.memory_bytes() +
          static_cast<std::int64_t>(leaves_.capacity() + wet_.capacity() + wet_walls_.capacity() * sizeof(std::int32_t) +
                                    wall_layer_.capacity());
 }

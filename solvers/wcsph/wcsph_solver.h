@@ -47,7 +47,7 @@ class WcsphSolver final : public Solver {
 
  private:
   Sorted<Pack> sorted_fluid() const { return {fluid_, fluid_index_, travel_m_}; }
-  Sorted<Pack> sorted_walls() const { return {walls_, wall_index_, 0.0}; }
+  SortedWalls<Pack> sorted_walls() const { return {{walls_, wall_index_, 0.0}, wall_proximity_}; }
 
   void place_fluid(const Scene& scene);
   void place_walls(const Scene& scene);
@@ -70,6 +70,7 @@ class WcsphSolver final : public Solver {
   Particles<Pack> walls_;
   RowIndex fluid_index_;
   RowIndex wall_index_;
+  Proximity wall_proximity_;
   std::vector<std::int8_t> wall_layer_;
   std::vector<std::uint8_t> wet_;
   std::vector<std::int32_t> wet_walls_;  ///< wall particles that fluid can reach before the next sort

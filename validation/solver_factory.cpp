@@ -81,6 +81,7 @@ std::map<std::string, double> complete_mps(const Case&, std::map<std::string, do
   p.try_emplace("greatest_speed_m_s", defaults.greatest_speed_m_s);
   p.try_emplace("collision_over_distance", defaults.collision_over_distance);
   p.try_emplace("restitution", defaults.restitution);
+  p.try_emplace("wall_contact_over_distance", defaults.wall_contact_over_distance);
   p.try_emplace("tolerance", defaults.tolerance);
   p.try_emplace("most_iterations", defaults.most_iterations);
   p.try_emplace("multigrid", 1.0);
@@ -103,6 +104,7 @@ mps::Parameters mps_parameters(const RunSettings& settings) {
   p.greatest_speed_m_s = given.at("greatest_speed_m_s");
   p.collision_over_distance = given.at("collision_over_distance");
   p.restitution = given.at("restitution");
+  p.wall_contact_over_distance = given.at("wall_contact_over_distance");
   p.tolerance = given.at("tolerance");
   p.most_iterations = static_cast<int>(given.at("most_iterations"));
   p.preconditioner = given.at("multigrid") == 1 ? mps::Preconditioner::multigrid : mps::Preconditioner::jacobi;
@@ -143,7 +145,8 @@ const std::vector<SolverEntry>& entries() {
       {"mps",
        {"dummies"},
        {"effective_radius_over_distance", "viscosity_m2_s", "kappa_c_m_s2_kg", "kappa_r", "courant",
-        "greatest_speed_m_s", "collision_over_distance", "restitution", "tolerance", "most_iterations", "multigrid"},
+        "greatest_speed_m_s", "collision_over_distance", "restitution", "wall_contact_over_distance", "tolerance",
+        "most_iterations", "multigrid"},
        complete_mps,
        make_mps,
        mps_cost}};

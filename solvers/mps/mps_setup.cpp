@@ -29,6 +29,8 @@ Parameters checked(const Parameters& p) {
   require(p.greatest_speed_m_s > 0, "greatest_speed_m_s", p.greatest_speed_m_s, "positive");
   require(p.collision_over_distance >= 0 && p.collision_over_distance <= 1, "collision_over_distance",
           p.collision_over_distance, "in [0, 1]");
+  require(p.wall_contact_over_distance >= 0 && p.wall_contact_over_distance <= 1, "wall_contact_over_distance",
+          p.wall_contact_over_distance, "in [0, 1]");
   require(p.restitution >= 0 && p.restitution <= 1, "restitution", p.restitution, "in [0, 1]");
   require(p.tolerance > 0 && p.tolerance < 1, "tolerance", p.tolerance, "in (0, 1)");
   require(p.most_iterations >= 1, "most_iterations", p.most_iterations, "one or more");
@@ -97,6 +99,7 @@ void MpsSolver<Pack>::place(const Scene& scene) {
   };
   place_solids(dummies, 0, dummy_index_);
   place_solids(walls, particles_.first_wall(), wall_index_);
+  wall_normals_ = wall_normals(particles_, dummy_index_, constants_.parameters.particle_distance_m);
   for (std::size_t k = 0; k < scene.fluid.size(); ++k) {
     particles_.position.set(particles_.first_fluid() + k, scene.fluid[k]);
     particles_.id[particles_.first_fluid() + k] = static_cast<std::int32_t>(k);
@@ -118,7 +121,7 @@ template <class Pack>
 std::int64_t MpsSolver<Pack>::memory_bytes() const {
   return particles_.memory_bytes() + fluid_index_.memory_bytes() + wall_index_.memory_bytes() +
          dummy_index_.memory_bytes() + list_.memory_bytes() + pressure_equation_.memory_bytes() +
-         bytes(next_velocity_) + bytes(leaves_);
+         bytes(next_velocity_) + bytes(wall_normals_) + bytes(leaves_);
 }
 
 template <class Pack>

@@ -84,8 +84,9 @@ void MpsSolver<Pack>::find_leaving() {
 
 template <class Pack>
 void MpsSolver<Pack>::collide_pairs() {
-  if (constants_.parameters.collision_over_distance <= 0) return;
-  collisions_ += collide(particles_, list_, constants_, next_velocity_, threads_);
+  const Parameters& p = constants_.parameters;
+  if (p.collision_over_distance <= 0 && p.wall_contact_over_distance <= 0) return;
+  collisions_ += collide(particles_, wall_normals_, list_, constants_, next_velocity_, threads_);
   particles_.velocity.swap(next_velocity_);
 }
 

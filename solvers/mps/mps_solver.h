@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solvers/cell_rows.h"
+#include "solvers/mps/collisions.h"
 #include "solvers/mps/neighbours.h"
 #include "solvers/mps/operators.h"
 #include "solvers/mps/parameters.h"
@@ -72,6 +73,7 @@ class MpsSolver final : public Solver {
   RowIndex fluid_index_;
   RowIndex wall_index_;
   RowIndex dummy_index_;
+  VectorField<double> wall_normals_;
   NeighbourList<Pack> list_;
   PressureEquation<Pack> pressure_equation_;
   VectorField<typename Lanes<Pack>::Real> next_velocity_;

@@ -111,6 +111,24 @@ TEST(MpsSolver, CollisionsKeepMomentumAndTakeEnergy) {
   EXPECT_NEAR(std::abs(u.x[i] - u.x[i + 1]), 0.2 * 5, 1e-4);  // restitution; viscosity takes a trace
 }
 
+/// A particle that slides along the floor while it falls on it loses what goes into the floor and keeps the rest: the
+/// lattice of wall particles is not felt.
+TEST(MpsSolver, WallsStopWhatGoesIntoThemOnly) {
+  const double l0 = 0.02;
+  Parameters p = parameters_for(l0, 5);
+  p.gravity_m_s2 = {0, 0, 0};
+  p.viscosity_m2_s = 0;
+  for (const double height : {0.05, 0.3}) {
+    MpsSolver<double> solver(free_particles(l0, {{0.393, 0.402, height * l0}}), p, 1);
+    solver.set_velocity(0, {2, 1, -3});
+    run(solver, 20);
+    const Vec3d u = solver.particles().velocity.at<double>(solver.particles().first_fluid());
+    EXPECT_NEAR(u.x, 2, 1e-9);
+    EXPECT_NEAR(u.y, 1, 1e-9);
+    EXPECT_NEAR(u.z, 0, 1e-9);
+  }
+}
+
 /// The gradient with the least pressure as reference does not act in equal and opposite pairs: momentum of a drop is
 /// kept only nearly.
 TEST(MpsSolver, MomentumOfADropIsNearlyKept) {

@@ -84,39 +84,6 @@ void predict_velocities(const Particles<Pack>& p, const NeighbourList<Pack>& lis
 }
 
 template <class Pack>
-std::int64_t collide(const Particles<Pack>& p, const NeighbourList<Pack>& list, const OperatorConstants& c,
-                     VectorField<typename Lanes<Pack>::Real>& after, int threads) {
-  const auto& parameters = c.parameters;
-  const double contact = parameters.collision_over_distance * parameters.particle_distance_m;
-  // No pair comes closer by more than twice the Courant number's distance in a step, unless it is already too fast.
-  const double reach = contact + 2 * parameters.courant * parameters.particle_distance_m;
-  const double least_weight = parameters.effective_radius_m() / reach - 1;
-  const auto n = static_cast<std::int64_t>(p.size());
-  std::int64_t collided = 0;
-#pragma omp parallel for num_threads(threads) schedule(static) reduction(+ : collided)
-  for (std::int64_t k = static_cast<std::int64_t>(p.first_fluid()); k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const Vec3d u = p.velocity.template at<double>(i);
-    Vec3d change;
-    bool any = false;
-    const Span span = list.all(i);
-    for (std::uint32_t at = span.begin; at < span.end; ++at) {
-      if (static_cast<double>(list.weights()[at]) <= least_weight) continue;
-      const auto j = static_cast<std::size_t>(list.columns()[at]);
-      const Vec3d r = p.position.template at<double>(j) - p.position.template at<double>(i);
-      const Vec3d relative = p.velocity.template at<double>(j) - u;
-      const Vec3d ahead = r + c.dt_s * relative;
-      if (dot(ahead, ahead) > contact * contact) continue;
-      change += collision_term(relative, r, parameters.restitution, p.is_fluid(j) ? 0.5 : 1.0);
-      any = true;
-    }
-    after.set(i, u + change);
-    collided += any && dot(change, change) > 0;
-  }
-  return collided;
-}
-
-template <class Pack>
 Vec3d pressure_gradient(const Particles<Pack>& p, const NeighbourList<Pack>& list, const OperatorConstants& c,
                         std::size_t i, bool& plain) {
   using L = Lanes<Pack>;
@@ -162,10 +129,6 @@ template void predict_velocities(const Particles<double>&, const NeighbourList<d
                                  VectorField<double>&, int);
 template void predict_velocities(const Particles<FloatPack>&, const NeighbourList<FloatPack>&, const OperatorConstants&,
                                  VectorField<float>&, int);
-template std::int64_t collide(const Particles<double>&, const NeighbourList<double>&, const OperatorConstants&,
-                              VectorField<double>&, int);
-template std::int64_t collide(const Particles<FloatPack>&, const NeighbourList<FloatPack>&, const OperatorConstants&,
-                              VectorField<float>&, int);
 template CorrectionReport correct(Particles<double>&, const NeighbourList<double>&, const OperatorConstants&, int);
 template CorrectionReport correct(Particles<FloatPack>&, const NeighbourList<FloatPack>&, const OperatorConstants&,
                                   int);

@@ -26,12 +26,6 @@ template <class Pack>
 void predict_velocities(const Particles<Pack>& particles, const NeighbourList<Pack>& list, const OperatorConstants& c,
                         VectorField<typename Lanes<Pack>::Real>& predicted, int threads);
 
-/// Collisions of pairs that approach and would be closer than Parameters::collision_over_distance at r*; all from the
-/// same predicted velocities, before anything moves, into `after`. Returns the number of particles that collided.
-template <class Pack>
-std::int64_t collide(const Particles<Pack>& particles, const NeighbourList<Pack>& list, const OperatorConstants& c,
-                     VectorField<typename Lanes<Pack>::Real>& after, int threads);
-
 struct CorrectionReport {
   std::int64_t plain_gradients = 0;  ///< particles with too few neighbours for the corrected gradient
   double greatest_move_m = 0;

@@ -17,9 +17,10 @@ struct Parameters {
   double greatest_speed_m_s = 5;        ///< |u|max of the time step, Eq. (27)
   double least_density_ratio = 0.98;    ///< beta_1: a surface particle has n_i < beta_1 n0, Eq. (28)
   double centroid_over_distance = 0.2;  ///< varrho_1: and sigma_i > varrho_1 l0, Eq. (29)
-  /// Pairs closer than this that approach collide (see operators.h); 0 turns collisions off, as in the paper's text.
+  /// Pairs closer than this that approach collide (see collisions.h); 0 turns collisions off, as in the paper's text.
   double collision_over_distance = 0.85;
-  double restitution = 0.2;  ///< of a collision
+  double restitution = 0.2;                 ///< of a collision
+  double wall_contact_over_distance = 0.5;  ///< fluid comes no closer to the wall's layer (see collisions.h); 0: off
   Preconditioner preconditioner = Preconditioner::multigrid;
   double tolerance = 1e-6;  ///< of the pressure equation's residual over its right-hand side
   int most_iterations = 1000;

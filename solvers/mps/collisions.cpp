@@ -1,0 +1,124 @@
+#include "solvers/mps/collisions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solvers/mps/terms.h"
+
+namespace sluice::mps {
+namespace {
+
+/// Wall particles within this many particle distances share in the normal at a fluid particle, the nearer the more: far
+/// enough for four of them at least, near enough that an edge is felt as an edge.
+constexpr double normal_support_over_distance = 1.3;
+
+struct Distances {
+  double pair_m;
+  double wall_m;
+  double support_m;
+  double least_weight;  ///< of a neighbour that can matter: no pair comes closer by more than 2 Cr l0 in a step
+
+  explicit Distances(const Parameters& p)
+      : pair_m(p.collision_over_distance * p.particle_distance_m),
+        wall_m(p.wall_contact_over_distance * p.particle_distance_m),
+        support_m(normal_support_over_distance * p.particle_distance_m) {
+    const double reach = std::max(pair_m, support_m) + 2 * p.courant * p.particle_distance_m;
+    least_weight = std::max(0.0, p.effective_radius_m() / reach - 1);
+  }
+};
+
+/// The wall as a fluid particle meets it.
+struct WallAhead {
+  Vec3d normal;
+  double gap_m = std::numeric_limits<double>::infinity();  ///< along a normal to the layer's particles
+
+  void add(const Vec3d& r, const Vec3d& wall_normal, double support_m) {
+    const double share = support_m - std::sqrt(dot(r, r));
+    if (share <= 0) return;
+    normal += share * wall_normal;
+    gap_m = std::min(gap_m, -dot(r, wall_normal));
+  }
+
+  /// Takes away the velocity into the wall where the particle would come too near.
+  Vec3d contact(const Vec3d& velocity, double wall_m, double dt_s) const {
+    const double length = std::sqrt(dot(normal, normal));
+    if (length == 0) return {};
+    const Vec3d n = (1 / length) * normal;
+    const double into = dot(velocity, n);
+    if (into >= 0 || gap_m + dt_s * into >= wall_m) return {};
+    return -into * n;
+  }
+};
+
+/// Change of the velocity of one fluid particle   [m/s]
+template <class Pack>
+Vec3d velocity_change(const Particles<Pack>& p, const VectorField<double>& wall_normals,
+                      const NeighbourList<Pack>& list, const OperatorConstants& c, const Distances& d, std::size_t i) {
+  const Vec3d x = p.position.template at<double>(i);
+  const Vec3d u = p.velocity.template at<double>(i);
+  Vec3d change;
+  WallAhead wall;
+  const Span span = list.with_pressure(i);
+  for (std::uint32_t at = span.begin; at < span.end; ++at) {
+    if (static_cast<double>(list.weights()[at]) <= d.least_weight) continue;
+    const auto j = static_cast<std::size_t>(list.columns()[at]);
+    const Vec3d r = p.position.template at<double>(j) - x;
+    if (!p.is_fluid(j)) {
+      wall.add(r, wall_normals.at<double>(j - p.first_wall()), d.support_m);
+      continue;
+    }
+    const Vec3d relative = p.velocity.template at<double>(j) - u;
+    const Vec3d ahead = r + c.dt_s * relative;
+    if (dot(ahead, ahead) <= d.pair_m * d.pair_m) change += collision_term(relative, r, c.parameters.restitution, 0.5);
+  }
+  return change + wall.contact(u + change, d.wall_m, c.dt_s);
+}
+
+}  // namespace
+
+template <class Pack>
+std::int64_t collide(const Particles<Pack>& p, const VectorField<double>& wall_normals, const NeighbourList<Pack>& list,
+                     const OperatorConstants& c, VectorField<typename Lanes<Pack>::Real>& after, int threads) {
+  const Distances distances(c.parameters);
+  const auto n = static_cast<std::int64_t>(p.size());
+  std::int64_t collided = 0;
+#pragma omp parallel for num_threads(threads) schedule(static) reduction(+ : collided)
+  for (std::int64_t k = static_cast<std::int64_t>(p.first_fluid()); k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Vec3d change = velocity_change(p, wall_normals, list, c, distances, i);
+    after.set(i, p.velocity.template at<double>(i) + change);
+    collided += dot(change, change) > 0;
+  }
+  return collided;
+}
+
+template <class Pack>
+VectorField<double> wall_normals(const Particles<Pack>& p, const RowIndex& dummies, double particle_distance_m) {
+  VectorField<double> normals;
+  normals.resize(p.walls);
+  const double support_m = 1.75 * particle_distance_m;  // the layer behind, with its corners
+  for (std::size_t w = 0; w < p.walls; ++w) {
+    const Vec3d x = p.position.template at<double>(p.first_wall() + w);
+    Vec3d sum;
+    for (const Run& run : dummies.neighbours(x, 0.0)) {
+      for (auto j = static_cast<std::size_t>(run.begin); j < static_cast<std::size_t>(run.end); ++j) {
+        const Vec3d r = p.position.template at<double>(j) - x;
+        const double distance = std::sqrt(dot(r, r));
+        if (distance < support_m) sum += (-1 / distance) * r;
+      }
+    }
+    const double length = std::sqrt(dot(sum, sum));
+    normals.set(w, length > 0 ? (1 / length) * sum : sum);
+  }
+  return normals;
+}
+
+template std::int64_t collide(const Particles<double>&, const VectorField<double>&, const NeighbourList<double>&,
+                              const OperatorConstants&, VectorField<double>&, int);
+template std::int64_t collide(const Particles<FloatPack>&, const VectorField<double>&, const NeighbourList<FloatPack>&,
+                              const OperatorConstants&, VectorField<float>&, int);
+template VectorField<double> wall_normals(const Particles<double>&, const RowIndex&, double);
+template VectorField<double> wall_normals(const Particles<FloatPack>&, const RowIndex&, double);
+
+}  // namespace sluice::mps

@@ -1,0 +1,31 @@
+// What the paper leaves out: short-range models that keep fluid particles from clustering and from passing through
+// walls. Both change predicted velocities, before anything moves, and never add energy.
+//
+// Fluid: pairs that approach and would be closer than Parameters::collision_over_distance collide with restitution e
+// (Lee, Park, Kim and Hwang 2011, Comput. Methods Appl. Mech. Eng. 200:1113).
+//
+// Walls: the same model between fluid and wall particles makes the wall as rough as its lattice, and a front that runs
+// over it is held back (see the README). So a wall is met along its normal: a particle nearer to the wall's layer than
+// Parameters::wall_contact_over_distance loses what velocity it has into the wall, and keeps the rest.
+#pragma once
+
+#include <cstdint>
+
+#include "solvers/mps/neighbours.h"
+#include "solvers/mps/operators.h"
+#include "solvers/mps/particles.h"
+
+namespace sluice::mps {
+
+/// Velocities after collisions and contacts, all from the same predicted ones, into `after`. `wall_normals` points from
+/// each wall particle into the fluid, first_wall() first. Returns the number of particles whose velocity changed.
+template <class Pack>
+std::int64_t collide(const Particles<Pack>& particles, const VectorField<double>& wall_normals,
+                     const NeighbourList<Pack>& list, const OperatorConstants& c,
+                     VectorField<typename Lanes<Pack>::Real>& after, int threads);
+
+/// Unit normals of the wall particles into the fluid: away from the dummy particles behind them.
+template <class Pack>
+VectorField<double> wall_normals(const Particles<Pack>& particles, const RowIndex& dummies, double particle_distance_m);
+
+}  // namespace sluice::mps

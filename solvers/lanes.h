@@ -38,6 +38,7 @@ struct Lanes<double> {
     return to[*index] - from;
   }
   static void store(double v, double* p) { *p = v; }
+  static void store_between(double v, double low, double high, std::int32_t* p) { *p = v > low && v < high; }
   static double first(int) { return 1; }
   static void add(double* p, double v, int) { *p += v; }
 };
@@ -53,6 +54,12 @@ struct Lanes<FloatPack> {
 
   [[gnu::always_inline]] static FloatPack load(const float* p) { return FloatPack(p, stdx::element_aligned); }
   [[gnu::always_inline]] static void store(FloatPack v, float* p) { v.copy_to(p, stdx::element_aligned); }
+  /// One for each lane with low < v < high, zero for the others.
+  [[gnu::always_inline]] static void store_between(FloatPack v, float low, float high, std::int32_t* p) {
+    FloatPack flag{};
+    stdx::where(v > low && v < high, flag) = 1.0F;
+    stdx::static_simd_cast<Integers>(flag).copy_to(p, stdx::element_aligned);
+  }
 
   /// to - from in quanta for a whole pack; the integer difference is exact, its conversion rounds to single precision.
   [[gnu::always_inline]] static FloatPack difference(const std::int32_t* to, std::int32_t from) {

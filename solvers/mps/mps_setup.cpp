@@ -69,6 +69,8 @@ MpsSolver<Pack>::MpsSolver(const Scene& scene, const Parameters& parameters, int
       fluid_index_(rows(tank_, parameters)),
       wall_index_(rows(tank_, parameters)),
       dummy_index_(rows(tank_, parameters)),
+      wall_proximity_(wall_index_),
+      dummy_proximity_(dummy_index_),
       pressure_equation_(constants_, tank_.domain(), threads_) {
   if (scene.description.wall_layers < 3)
     throw std::invalid_argument(
@@ -99,6 +101,8 @@ void MpsSolver<Pack>::place(const Scene& scene) {
   };
   place_solids(dummies, 0, dummy_index_);
   place_solids(walls, particles_.first_wall(), wall_index_);
+  wall_proximity_ = Proximity(wall_index_);
+  dummy_proximity_ = Proximity(dummy_index_);
   wall_normals_ = wall_normals(particles_, dummy_index_, constants_.parameters.particle_distance_m);
   for (std::size_t k = 0; k < scene.fluid.size(); ++k) {
     particles_.position.set(particles_.first_fluid() + k, scene.fluid[k]);
@@ -120,8 +124,9 @@ void MpsSolver<Pack>::set_velocity(std::int32_t id, const Vec3d& velocity_m_s) {
 template <class Pack>
 std::int64_t MpsSolver<Pack>::memory_bytes() const {
   return particles_.memory_bytes() + fluid_index_.memory_bytes() + wall_index_.memory_bytes() +
-         dummy_index_.memory_bytes() + list_.memory_bytes() + pressure_equation_.memory_bytes() +
-         bytes(next_velocity_) + bytes(wall_normals_) + bytes(leaves_);
+         dummy_index_.memory_bytes() + wall_proximity_.memory_bytes() + dummy_proximity_.memory_bytes() +
+         list_.memory_bytes() + pressure_equation_.memory_bytes() + bytes(next_velocity_) + bytes(wall_normals_) +
+         bytes(leaves_);
 }
 
 template <class Pack>

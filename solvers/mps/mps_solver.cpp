@@ -50,8 +50,8 @@ void MpsSolver<Pack>::list_neighbours() {
   particles_.permute_fluid(fluid_index_.order(), threads_);
   next_velocity_.resize(particles_.size());
   particles_.encode_positions(tank_.domain(), first, threads_);
-  list_.list(particles_, {fluid_index_, first}, {wall_index_, particles_.first_wall()}, {dummy_index_, 0}, reach_,
-             threads_);
+  list_.list(particles_, {fluid_index_, first}, {wall_index_, particles_.first_wall(), &wall_proximity_},
+             {dummy_index_, 0, &dummy_proximity_}, reach_, threads_);
   travel_m_ = 0;
 }
 

@@ -73,6 +73,8 @@ class MpsSolver final : public Solver {
   RowIndex fluid_index_;
   RowIndex wall_index_;
   RowIndex dummy_index_;
+  Proximity wall_proximity_;
+  Proximity dummy_proximity_;
   VectorField<double> wall_normals_;
   NeighbourList<Pack> list_;
   PressureEquation<Pack> pressure_equation_;

@@ -2,7 +2,6 @@
 // of every operator, and as matrix of the pressure equation.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +15,7 @@ namespace sluice::mps {
 struct SearchSet {
   const RowIndex& index;
   std::size_t first;
+  const Proximity* proximity = nullptr;  ///< of sets that do not move
 };
 
 /// Distances of the weight in quanta of the coordinates.
@@ -47,22 +47,24 @@ class NeighbourList {
   std::int64_t memory_bytes() const;
 
  private:
-  /// Candidates of one particle, compacted to those within reach. One a thread.
+  /// The row of one particle while it is filled. One a thread.
   struct Collector {
-    void clear() { count = 0; }
-    void add(const Particles<Pack>& particles, std::size_t self, const SearchSet& set, double cut2);
+    void clear();
+    /// Adds the neighbours of a particle that lie in one set.
+    void add(const Particles<Pack>& particles, std::size_t self, const SearchSet& set);
     void make_room(std::size_t wanted);
 
+    Pack radius;        ///< effective radius   [quantum]
+    Real list_radius2;  ///< square of what is listed   [quantum^2]
     std::size_t count = 0;
     std::vector<std::int32_t> column;
-    std::array<std::vector<Real>, 4> kept;       ///< r_ij and its square, of those within reach
-    std::array<std::vector<Real>, 4> candidate;  ///< the same of all candidates of a set
-    std::vector<std::int32_t> place;             ///< of those within reach among the candidates
     std::vector<Real> weight;
+    Pack weights{};       ///< sum of omega_ij
+    Vec3<Pack> moment{};  ///< sum of omega_ij r_ij   [quantum]
   };
 
-  void list_row(Particles<Pack>& particles, std::size_t i, Collector& c, const Reach& reach,
-                typename SparseRows<Real>::Writer& writer, std::size_t dummies);
+  void finish_row(Particles<Pack>& particles, std::size_t i, const Collector& c, double quantum_m,
+                  typename SparseRows<Real>::Writer& writer, std::size_t dummies);
 
   SparseRows<Real> rows_;
   std::vector<std::uint16_t> dummies_;  ///< at the end of each row

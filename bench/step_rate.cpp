@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <exception>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,8 @@ void measure(const Case& c, const RunSettings& settings, const Stretch& stretch)
 
   const PhaseTimes before = solver->phases();
   const std::int64_t first_step = solver->steps();
-  const double pairs = solver->facts().at("pairs_in_reach");
+  const double first_time_s = solver->time_s();
+  const std::map<std::string, double> facts = solver->facts();
   const auto start = std::chrono::steady_clock::now();
   const double sensors_s = run_to(*solver, sensors, stretch.to_s, settings.output_rate_Hz);
   const double wall_s = seconds_since(start);
@@ -62,8 +64,15 @@ void measure(const Case& c, const RunSettings& settings, const Stretch& stretch)
              settings.walls, settings.l0_m, settings.threads, fluid, solver->solid_count());
   fmt::print("  {:8.3f} million fluid particle-steps a second ({:.0f} steps in {:.2f} s)\n",
              1e-6 * fluid * steps / wall_s, steps, wall_s);
-  fmt::print("  {:8.1f} neighbours a fluid particle, {:.0f} million one-sided pair interactions a second and thread\n",
-             pairs / fluid, 1e-6 * pairs * steps / wall_s / settings.threads);
+  fmt::print("  {:8.1f} ms a step, {:.2f} s of wall time a simulated second\n", 1e3 * wall_s / steps,
+             wall_s / (solver->time_s() - first_time_s));
+  if (const auto pairs = facts.find("pairs_in_reach"); pairs != facts.end())
+    fmt::print(
+        "  {:8.1f} neighbours a fluid particle, {:.0f} million one-sided pair interactions a second and thread\n",
+        pairs->second / fluid, 1e-6 * pairs->second * steps / wall_s / settings.threads);
+  if (facts.contains("iterations_mean"))
+    fmt::print("  {:8.1f} iterations a step since the start, {:.0f} at most\n", solver->facts().at("iterations_mean"),
+               solver->facts().at("iterations_max"));
   fmt::print("  {:8.0f} bytes a particle\n", bytes / (fluid + static_cast<double>(solver->solid_count())));
   for (const auto& [phase, total_s] : solver->phases()) {
     const auto earlier = before.find(phase);
@@ -79,22 +88,30 @@ int main(int argc, char** argv) {
   std::string case_name = "kleefsman";
   std::vector<double> distances_m{0.02};
   std::vector<int> threads{1, 2};
-  std::vector<std::string> walls{"dynamic", "extrapolated"};
+  std::string solver = "wcsph";
+  std::vector<std::string> walls;
+  std::vector<std::string> overrides;
   Stretch stretch;
   app.add_option("--case", case_name, "Case")->capture_default_str();
   app.add_option("--l0", distances_m, "Particle distances [m]")->capture_default_str();
   app.add_option("--threads", threads, "Numbers of threads")->capture_default_str();
-  app.add_option("--walls", walls, "Wall models")->capture_default_str();
+  app.add_option("--solver", solver, "Solver")->capture_default_str();
+  app.add_option("--walls", walls, "Wall models (default: all of the solver)");
+  app.add_option("--set", overrides, "key=value: parameters of the solver");
   app.add_option("--from", stretch.from_s, "Begin of the timed stretch [s]")->capture_default_str();
   app.add_option("--to", stretch.to_s, "End of the timed stretch [s]")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     const Case c = load_case(case_name);
+    if (const SolverOption* option = c.find_solver(solver); walls.empty() && option != nullptr)
+      for (const WallOption& wall_model : option->walls) walls.push_back(wall_model.name);
     for (const double l0_m : distances_m) {
       for (const std::string& wall_model : walls) {
         for (const int n : threads) {
           RunRequest request;
+          request.solver = solver;
           request.walls = wall_model;
+          for (const std::string& text : overrides) request.overrides.push_back(parse_override(text));
           request.l0_m = l0_m;
           request.threads = n;
           measure(c, resolve_settings(c, request), stretch);

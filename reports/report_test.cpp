@@ -112,6 +112,25 @@ TEST(ReportTables, AnInterruptedRunIsFlaggedAndHasNoImpulse) {
   EXPECT_EQ(cell(paper_impulses_table(data), "R1", "P1_Pa_s").text, "missing");
 }
 
+TEST(ReportTables, CostsOfTheTwoMethodsStandSideBySideAtEqualParticleDistance) {
+  const fs::path wcsph = fresh("cost_wcsph");
+  const fs::path mps = fresh("cost_mps");
+  synthetic::write_run(wcsph, {});
+  EXPECT_TRUE(cost_ratio_table(analyse({wcsph})).rows.empty()) << "one method alone has no ratio";
+  MadeRun run;
+  run.solver = "mps";
+  run.walls = "dummies";
+  run.t_end_s = 3.0;  // the same wall time for half as much
+  synthetic::write_run(mps, run);
+  const Table table = cost_ratio_table(analyse({mps, wcsph}));
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_NEAR(*table.rows[0].cells.back().value, 2.0, 1e-9);
+  EXPECT_NEAR(*table.rows[1].cells.back().value, 223200.0 / 126000.0, 1e-9) << "the paper's";
+  run.l0_m = 0.03;
+  synthetic::write_run(mps, run);
+  EXPECT_TRUE(cost_ratio_table(analyse({mps, wcsph})).rows.empty()) << "not at different ones";
+}
+
 TEST(ReportTables, AShortRunIsScoredOverWhatItCoversInATableOfItsOwn) {
   const fs::path dir = fresh("short");
   MadeRun run;

@@ -179,6 +179,8 @@ ReportSection acceptance_section(const ReportData& data) {
 ReportSection cost_section(const FigureMaker& maker) {
   ReportSection section{"cost", "Error and cost", {}};
   append(section, cost_figures(maker));
+  Table ratio = cost_ratio_table(maker.data);
+  if (!ratio.rows.empty()) section.blocks.push_back(std::move(ratio));
   section.blocks.push_back(phases_table(maker.data));
   return section;
 }

@@ -123,7 +123,9 @@ void add_published_notes(Table& table, const Published& published) {
 
 TableCell support_cell(const RunRecord& record) {
   const auto ratio = record.number("parameters.kernel_radius_over_distance");
-  return ratio ? word("2h = " + shortest(*ratio) + " l0") : missing();
+  if (ratio) return word("2h = " + shortest(*ratio) + " l0");
+  const auto effective = record.number("parameters.effective_radius_over_distance");
+  return effective ? word("re = " + shortest(*effective) + " l0") : missing();
 }
 
 }  // namespace

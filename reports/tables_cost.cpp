@@ -1,0 +1,62 @@
+// What the methods cost against each other.
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "reports/tables.h"
+#include "reports/text.h"
+
+namespace sluice {
+namespace {
+
+std::optional<double> seconds_per_second(const AnalysedRun& run) {
+  const auto wall_s = run.record.number("wall_time_s");
+  const auto time_s = run.record.number("time_s");
+  if (!wall_s || !time_s || *time_s <= 0) return std::nullopt;
+  return *wall_s / *time_s;
+}
+
+const PublishedRun* published_run(const Case& c, const std::string& solver) {
+  for (const PublishedRun& run : c.published.runs)
+    if (run.solver == solver) return &run;
+  return nullptr;
+}
+
+void add_pair(Table& table, TableCell mps, TableCell wcsph, double l0_m, std::optional<double> mps_s,
+              std::optional<double> wcsph_s) {
+  const auto ratio = mps_s && wcsph_s ? std::optional(*mps_s / *wcsph_s) : std::nullopt;
+  table.add({std::move(mps), std::move(wcsph), typed(l0_m), rounded(mps_s, 3), rounded(wcsph_s, 3), rounded(ratio, 3)});
+}
+
+}  // namespace
+
+Table cost_ratio_table(const ReportData& data) {
+  Table table;
+  table.name = "cost_ratio";
+  table.caption = "Wall time per simulated second: MPS against WCSPH at equal particle distance";
+  table.columns = {{"MPS run", "mps_run", false}, {"WCSPH run", "wcsph_run", false}, {"l0 [m]", "l0_m"},
+                   {"MPS [s/s]", "mps_s_per_s"},  {"WCSPH [s/s]", "wcsph_s_per_s"},  {"MPS / WCSPH", "ratio"}};
+  const PublishedRun* mps = published_run(data.the_case, "mps");
+  const PublishedRun* wcsph = published_run(data.the_case, "wcsph");
+  bool threads_differ = false;
+  for (const AnalysedRun& m : data.runs) {
+    if (m.record.solver != "mps") continue;
+    for (const AnalysedRun& w : data.runs) {
+      if (w.record.solver != "wcsph" || std::abs(w.record.l0_m - m.record.l0_m) > 1e-9) continue;
+      threads_differ = threads_differ || m.record.number("threads") != w.record.number("threads");
+      add_pair(table, word(m.label), word(w.label), m.record.l0_m, seconds_per_second(m), seconds_per_second(w));
+    }
+  }
+  if (table.rows.empty()) return table;
+  if (mps != nullptr && wcsph != nullptr)
+    add_pair(table, word("Paper: MPS, as printed"), word("Paper: WCSPH, as printed"), mps->l0_m,
+             mps->cpu_time_s / mps->t_end_s, wcsph->cpu_time_s / wcsph->t_end_s);
+  table.notes.push_back(
+      "Runs that did not share a machine at the same time compare only roughly; bench/ times whole steps of both "
+      "solvers side by side.");
+  if (threads_differ) table.notes.push_back("Some of these pairs ran on different numbers of threads.");
+  return table;
+}
+
+}  // namespace sluice

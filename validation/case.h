@@ -49,9 +49,9 @@ struct TimeWindow {
 struct WallOption {
   std::string name;  ///< such as "extrapolated"
   int layers = 3;
-  std::string pressure_model;                ///< "wall", "kernel" or "nearest"
-  std::string wave_height_model;             ///< "column" or "top"
-  std::map<std::string, double> parameters;  ///< where this wall model's defaults differ from the solver's
+  std::string pressure_model;                  ///< "wall", "kernel" or "nearest"
+  std::string wave_height_model;               ///< "column" or "top"
+  std::map<std::string, double> parameters{};  ///< where this wall model's defaults differ from the solver's
 };
 
 /// The case's defaults for one solver.

@@ -46,6 +46,12 @@ std::optional<double> reached_s(const AnalysedRun& run) {
   return times.empty() ? std::nullopt : std::optional<double>(times.back());
 }
 
+/// A run that lists its parameters without alpha has none to tell.
+TableCell alpha_cell(const RunRecord& record) {
+  if (record.alpha() || !record.manifest.contains("parameters")) return typed(record.alpha());
+  return not_applicable();
+}
+
 }  // namespace
 
 Table runs_table(const ReportData& data) {
@@ -64,7 +70,7 @@ Table runs_table(const ReportData& data) {
     std::string remarks;
     for (const std::string& problem : run.problems) remarks += (remarks.empty() ? "" : "; ") + problem;
     table.add({word(run.label), word(run.directory), status_cell(run.record.status()), number(reached_s(run), 2),
-               typed(run.record.l0_m), typed(run.record.alpha()), whole(run.record.number("particles.fluid")),
+               typed(run.record.l0_m), alpha_cell(run.record), whole(run.record.number("particles.fluid")),
                remarks.empty() ? word("none") : word(remarks, Tone::bad)});
   }
   return table;
@@ -153,7 +159,7 @@ Table parameters_table(const ReportData& data) {
   for (const AnalysedRun& run : data.runs) {
     const RunRecord& r = run.record;
     const auto simulated = r.number("time_s");
-    table.add({word(run.label), power_of_ten(r.number("equivalent_viscosity_m2_s"), 2), typed(r.alpha()), typed(r.l0_m),
+    table.add({word(run.label), power_of_ten(r.number("equivalent_viscosity_m2_s"), 2), alpha_cell(r), typed(r.l0_m),
                support_cell(r), whole(r.number("particles.fluid")), whole(r.number("particles.solid")),
                number(simulated ? simulated : reached_s(run), 2), power_of_ten(r.number("dt_mean_s"), 2),
                whole(r.number("steps")), time_cell(r.number("wall_time_s")),

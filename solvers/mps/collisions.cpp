@@ -84,7 +84,7 @@ std::int64_t collide(const Particles<Pack>& p, const VectorField<double>& wall_n
   const auto n = static_cast<std::int64_t>(p.size());
   std::int64_t collided = 0;
 #pragma omp parallel for num_threads(threads) schedule(static) reduction(+ : collided)
-  for (std::int64_t k = static_cast<std::int64_t>(p.first_fluid()); k < n; ++k) {
+  for (auto k = static_cast<std::int64_t>(p.first_fluid()); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const Vec3d change = velocity_change(p, wall_normals, list, c, distances, i);
     after.set(i, p.velocity.template at<double>(i) + change);

@@ -88,7 +88,7 @@ template <class Real>
 void jacobi(const PressureMatrix<Real>& A, std::span<const double> r, std::span<double> z, int threads) {
   const auto n = static_cast<std::int64_t>(A.end);
 #pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::int64_t k = static_cast<std::int64_t>(A.begin); k < n; ++k) {
+  for (auto k = static_cast<std::int64_t>(A.begin); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     z[i] = A.has_row[i] != 0 ? r[i] / static_cast<double>(A.diagonal[i]) : 0.0;
   }

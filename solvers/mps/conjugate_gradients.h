@@ -27,7 +27,7 @@ class ConjugateGradients {
   explicit ConjugateGradients(int threads) : threads_(threads) {}
 
   /// Improves x until |b - A x| <= tolerance |b|. The vectors are zero where the matrix has no row.
-  Convergence solve(const PressureMatrix<Real>& matrix, std::span<const double> b, std::span<double> x,
+  Convergence solve(const PressureMatrix<Real>& A, std::span<const double> b, std::span<double> x,
                     const PreconditionerCall& precondition, double tolerance, int most_iterations);
 
   /// Relative residuals of the last solution, before the first iteration and after each.
@@ -37,7 +37,7 @@ class ConjugateGradients {
  private:
   /// Sums term(i) over the rows.
   template <class Term>
-  double sum(const PressureMatrix<Real>& matrix, Term&& term);
+  double sum(const PressureMatrix<Real>& A, Term&& term);
 
   int threads_;
   std::vector<double> residual_, preconditioned_, direction_, product_, partial_;
@@ -46,7 +46,7 @@ class ConjugateGradients {
 
 /// Jacobi, the paper's kind: z = r / diagonal.
 template <class Real>
-void jacobi(const PressureMatrix<Real>& matrix, std::span<const double> r, std::span<double> z, int threads);
+void jacobi(const PressureMatrix<Real>& A, std::span<const double> r, std::span<double> z, int threads);
 
 extern template class ConjugateGradients<float>;
 extern template class ConjugateGradients<double>;

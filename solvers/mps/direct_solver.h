@@ -20,7 +20,7 @@ class DirectSolver {
 
   /// Throws std::runtime_error if the matrix is not positive definite.
   template <class Real>
-  void factorise(const PressureMatrix<Real>& matrix);
+  void factorise(const PressureMatrix<Real>& A);
 
   /// Solves for the unknowns; elements without a row become zero. b and x have an element for every index below the
   /// matrix's end.

@@ -33,7 +33,7 @@ template <class Pack>
 void MpsSolver<Pack>::move() {
   const auto n = static_cast<std::int64_t>(particles_.size());
 #pragma omp parallel for num_threads(threads_) schedule(static)
-  for (std::int64_t k = static_cast<std::int64_t>(particles_.first_fluid()); k < n; ++k) {
+  for (auto k = static_cast<std::int64_t>(particles_.first_fluid()); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     particles_.position.set(
         i, particles_.position.template at<double>(i) + constants_.dt_s * particles_.velocity.template at<double>(i));
@@ -106,7 +106,7 @@ void MpsSolver<Pack>::correct_velocities() {
   fluid_steps_ += static_cast<std::int64_t>(particles_.fluid);
   const auto first = particles_.number_density.begin() + static_cast<std::ptrdiff_t>(particles_.first_fluid());
   if (first != particles_.number_density.end()) {
-    const double most = static_cast<double>(*std::max_element(first, particles_.number_density.end()));
+    const auto most = static_cast<double>(*std::max_element(first, particles_.number_density.end()));
     greatest_density_ratio_ = std::max(greatest_density_ratio_, most / constants_.lattice.number_density);
   }
   travel_m_ = report.greatest_move_m;

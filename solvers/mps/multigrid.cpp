@@ -83,7 +83,7 @@ void Multigrid<Real>::prepare(const PressureMatrix<Real>& matrix, std::span<cons
   finest.cell.resize(matrix.end);
   const auto n = static_cast<std::int64_t>(matrix.end);
 #pragma omp parallel for num_threads(threads_) schedule(static)
-  for (std::int64_t k = static_cast<std::int64_t>(matrix.begin); k < n; ++k) {
+  for (auto k = static_cast<std::int64_t>(matrix.begin); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const auto at = [&](double value, double lower) {
       return static_cast<std::int32_t>((value - lower) / cell_edge_m_);
@@ -115,7 +115,8 @@ void Multigrid<Real>::gather_cells(std::size_t l) {
   std::fill(fine.number_of_cell.begin(), fine.number_of_cell.end(), -1);
   fine.coarse.assign(fine.end(), -1);
   const auto grid_cell = [&](const CellAddress& a) {
-    return static_cast<std::size_t>((a.z * fine.ny + a.y) * fine.nx + a.x);
+    const auto row = static_cast<std::size_t>(a.z) * static_cast<std::size_t>(fine.ny) + static_cast<std::size_t>(a.y);
+    return row * static_cast<std::size_t>(fine.nx) + static_cast<std::size_t>(a.x);
   };
   for (std::size_t i = fine.begin(); i < fine.end(); ++i)
     if (fine.matrix.has_row[i] != 0) fine.number_of_cell[grid_cell(fine.cell[i])] = 0;
@@ -228,11 +229,11 @@ void Multigrid<Real>::apply(std::span<const double> r, std::span<double> z) {
   Level& finest = *levels_.front();
   const auto n = static_cast<std::int64_t>(finest.end());
 #pragma omp parallel for num_threads(threads_) schedule(static, rows_at_once)
-  for (std::int64_t i = static_cast<std::int64_t>(finest.begin()); i < n; ++i)
+  for (auto i = static_cast<std::int64_t>(finest.begin()); i < n; ++i)
     finest.b[static_cast<std::size_t>(i)] = static_cast<Real>(r[static_cast<std::size_t>(i)]);
   cycle(0);
 #pragma omp parallel for num_threads(threads_) schedule(static, rows_at_once)
-  for (std::int64_t i = static_cast<std::int64_t>(finest.begin()); i < n; ++i)
+  for (auto i = static_cast<std::int64_t>(finest.begin()); i < n; ++i)
     z[static_cast<std::size_t>(i)] = static_cast<double>(finest.x[static_cast<std::size_t>(i)]);
 }
 
@@ -258,7 +259,7 @@ template <class Real>
 void Multigrid<Real>::smooth_from_zero(Level& level) {
   const auto n = static_cast<std::int64_t>(level.end());
 #pragma omp parallel for num_threads(threads_) schedule(static, rows_at_once)
-  for (std::int64_t k = static_cast<std::int64_t>(level.begin()); k < n; ++k) {
+  for (auto k = static_cast<std::int64_t>(level.begin()); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     level.x[i] = level.matrix.has_row[i] != 0 ? static_cast<Real>(damping) * level.b[i] / level.matrix.diagonal[i] : 0;
   }
@@ -271,7 +272,7 @@ void Multigrid<Real>::restrict_residual(Level& fine, Level& coarse) {
 #pragma omp parallel num_threads(threads_)
   {
 #pragma omp for schedule(static, rows_at_once)
-    for (std::int64_t k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
+    for (auto k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
       fine.scratch[i] = fine.coarse[i] < 0 ? 0
                                            : fine.b[i] - fine.matrix.diagonal[i] * fine.x[i] +
@@ -294,18 +295,18 @@ void Multigrid<Real>::correct_and_smooth(Level& fine, const Level& coarse) {
 #pragma omp parallel num_threads(threads_)
   {
 #pragma omp for schedule(static, rows_at_once)
-    for (std::int64_t k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
+    for (auto k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const std::int32_t J = fine.coarse[i];
       fine.scratch[i] =
           J < 0 ? 0 : fine.x[i] + static_cast<Real>(over_correction) * coarse.x[static_cast<std::size_t>(J)];
     }
 #pragma omp for schedule(static, rows_at_once)
-    for (std::int64_t k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
+    for (auto k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
       if (fine.coarse[i] < 0) continue;
       const Real residual = fine.b[i] + off_diagonal(fine.matrix, i, fine.scratch.data());
-      const Real w = static_cast<Real>(damping);
+      const auto w = static_cast<Real>(damping);
       fine.x[i] = (1 - w) * fine.scratch[i] + w * residual / fine.matrix.diagonal[i];
     }
   }

@@ -31,7 +31,7 @@ void NeighbourList<Pack>::list(Particles<Pack>& particles, const SearchSet& flui
       c.list_radius2 = static_cast<Real>(list_radius * list_radius);
       typename SparseRows<Real>::Writer writer(rows_);
 #pragma omp for schedule(dynamic, 256)
-      for (std::int64_t k = static_cast<std::int64_t>(particles.first_wall()); k < n; ++k) {
+      for (auto k = static_cast<std::int64_t>(particles.first_wall()); k < n; ++k) {
         const auto i = static_cast<std::size_t>(k);
         const Vec3d x = particles.position.template at<double>(i);
         c.clear();

@@ -66,7 +66,7 @@ void predict_velocities(const Particles<Pack>& p, const NeighbourList<Pack>& lis
   const double scale = c.parameters.viscosity_m2_s * 6 / (c.lattice.lambda_m2 * c.lattice.number_density);
   const auto n = static_cast<std::int64_t>(p.size());
 #pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::int64_t k = static_cast<std::int64_t>(p.first_fluid()); k < n; ++k) {
+  for (auto k = static_cast<std::int64_t>(p.first_fluid()); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const auto u = p.velocity.template at<Pack>(i);
     Vec3<Pack> laplacian{};
@@ -113,7 +113,7 @@ CorrectionReport correct(Particles<Pack>& p, const NeighbourList<Pack>& list, co
   std::int64_t plain_gradients = 0;
   double greatest = 0;
 #pragma omp parallel for num_threads(threads) schedule(static) reduction(+ : plain_gradients) reduction(max : greatest)
-  for (std::int64_t k = static_cast<std::int64_t>(p.first_fluid()); k < n; ++k) {
+  for (auto k = static_cast<std::int64_t>(p.first_fluid()); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     bool plain = false;
     const Vec3d du = (-c.dt_s / c.parameters.density_kg_m3) * pressure_gradient(p, list, c, i, plain);

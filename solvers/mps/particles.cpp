@@ -33,7 +33,7 @@ void Particles<Pack>::encode_positions(const Box& domain, std::size_t first, int
   const FixedPoint<Coordinate> fz(domain.lower.z, extent);
   const auto n = static_cast<std::int64_t>(size());
 #pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::int64_t k = static_cast<std::int64_t>(first); k < n; ++k) {
+  for (auto k = static_cast<std::int64_t>(first); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     coordinate.x[i] = fx.encode(position.x[i]);
     coordinate.y[i] = fy.encode(position.y[i]);

@@ -45,7 +45,7 @@ void PressureEquation<Pack>::assemble(const Particles<Pack>& p, const NeighbourL
   right_side_.resize(p.size());
   const auto n = static_cast<std::int64_t>(p.size());
 #pragma omp parallel for num_threads(threads_) schedule(static, 512)
-  for (std::int64_t k = static_cast<std::int64_t>(p.first_wall()); k < n; ++k) {
+  for (auto k = static_cast<std::int64_t>(p.first_wall()); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const bool has_row = !is_at_surface(p, c_, i, list.all(i));
     rows_[i] = list.all(i);

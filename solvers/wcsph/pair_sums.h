@@ -65,8 +65,8 @@ struct StepLimits {
 
 /// Acceleration and density rate of every fluid particle from fluid and wall neighbours: Eq. (3) and (7).
 template <class Pack>
-StepLimits sum_fluid_rates(Particles<Pack>& fluid, const Sorted<Pack>& fluid_neighbours,
-                           const SortedWalls<Pack>& wall_neighbours, const PairConstants<Pack>& c, int threads);
+StepLimits sum_fluid_rates(Particles<Pack>& fluid, const Sorted<Pack>& fluid_neighbours, const SortedWalls<Pack>& walls,
+                           const PairConstants<Pack>& constants, int threads);
 
 /// Density rate of the wall particles in `wet` from its fluid neighbours: the first term of Eq. (7), for dynamic walls.
 template <class Pack>

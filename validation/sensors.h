@@ -3,9 +3,8 @@
 // Pressure, model `kernel`: the fluid's kernel mean at a point one smoothing length h off the wall (or the offset asked
 //   for); zero where fluid fills less than minimum_kernel_support of the kernel. Its support is recorded beside it.
 // Pressure, model `wall`: mean pressure of the first layer's wall particles within h of the sensor.
-// Pressure, model `nearest` (in the place of `wall`, for a solver whose walls have pressures of their own): pressure of
-// the
-//   wall particle nearest to the sensor, raw.
+// Pressure, model `nearest` (in the place of `wall`, for a solver whose walls have pressures of their own): the raw
+//   pressure of the wall particle nearest to the sensor.
 // Wave height, model `column`: the level of the first gap counted from the bed upwards.
 // Wave height, model `top`: the highest level on the probe's line that is inside fluid, spray included.
 #pragma once

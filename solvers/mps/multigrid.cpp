@@ -143,79 +143,36 @@ void Multigrid<Real>::gather_cells(std::size_t l) {
   }
 }
 
-template <class Real>
-void Multigrid<Real>::RowSum::make_room(std::size_t cells) {
-  if (slot.size() <= cells) slot.resize(cells + 1, -1);
-}
-
-/// Starts the row of cell I: first the place of entries outside of the grid, whose number is `nowhere`, then its own.
-template <class Real>
-void Multigrid<Real>::RowSum::start(std::int32_t I, std::int32_t nowhere) {
-  columns.clear();
-  values.clear();
-  place_of(nowhere);
-  place_of(I);
-}
-
-template <class Real>
-[[gnu::always_inline]] inline std::size_t Multigrid<Real>::RowSum::place_of(std::int32_t J) {
-  std::int32_t& place = slot[static_cast<std::size_t>(J)];
-  if (place < 0) {
-    place = static_cast<std::int32_t>(columns.size());
-    columns.push_back(J);
-    values.push_back({});
-  }
-  return static_cast<std::size_t>(place);
-}
-
-/// Neighbouring entries mostly go to one cell, and each addition would wait for the one before: so they take turns.
-template <class Real>
-void Multigrid<Real>::RowSum::add(const PressureMatrix<Real>& matrix, const std::vector<std::int32_t>& coarse, Span row,
-                                  std::int32_t nowhere) {
-  for (std::uint32_t k = row.begin; k < row.end; ++k) {
-    const std::int32_t J = coarse[static_cast<std::size_t>(matrix.columns[k])];
-    values[place_of(J < 0 ? nowhere : J)][k % turns] += matrix.weights[k];
-  }
-}
-
-template <class Real>
-void Multigrid<Real>::RowSum::finish() {
-  totals.clear();
-  for (const auto& v : values) totals.push_back((v[0] + v[1]) + (v[2] + v[3]));
-  for (const std::int32_t J : columns) slot[static_cast<std::size_t>(J)] = -1;
-}
-
 /// The entry between two cells is the sum of the entries between their members.
 template <class Real>
 void Multigrid<Real>::sum_coarse_matrix(std::size_t l) {
   const Level& fine = *levels_[l];
   Level& coarse = *levels_[l + 1];
   const std::size_t cells = coarse.cell.size();
-  const auto nowhere = static_cast<std::int32_t>(cells);
   coarse.diagonal.resize(cells);
   coarse.has_row.assign(cells, 1);
   coarse.spans.resize(cells);
   coarse.rows.reserve(cells, 32 * cells);
-  for (RowSum& sum : row_sums_) sum.make_room(cells);
+  for (CoarseRow<Real>& sum : row_sums_) sum.make_room(cells);
   do {
     coarse.rows.clear(cells);
 #pragma omp parallel num_threads(threads_)
     {
-      RowSum& sum = row_sums_[static_cast<std::size_t>(omp_get_thread_num())];
+      CoarseRow<Real>& sum = row_sums_[static_cast<std::size_t>(omp_get_thread_num())];
       typename SparseRows<Real>::Writer writer(coarse.rows);
 #pragma omp for schedule(dynamic, 64)
       for (std::int64_t row = 0; row < static_cast<std::int64_t>(cells); ++row) {
         const auto I = static_cast<std::size_t>(row);
-        sum.start(static_cast<std::int32_t>(row), nowhere);
+        sum.start(static_cast<std::int32_t>(row));
         Real diagonal{};
         for (auto m = fine.member_start[I]; m < fine.member_start[I + 1]; ++m) {
           const auto i = static_cast<std::size_t>(fine.members[static_cast<std::size_t>(m)]);
           diagonal += fine.matrix.diagonal[i];
-          sum.add(fine.matrix, fine.coarse, fine.matrix.rows[i], nowhere);
+          sum.add(fine.matrix, fine.coarse, fine.matrix.rows[i]);
         }
         sum.finish();
-        coarse.diagonal[I] = diagonal - sum.totals[1];
-        writer.write(I, sum.columns.data() + 2, sum.totals.data() + 2, sum.columns.size() - 2);
+        coarse.diagonal[I] = diagonal - sum.within();
+        writer.write(I, sum.columns(), sum.values(), sum.size());
       }
     }
   } while (coarse.rows.grew_for_more());

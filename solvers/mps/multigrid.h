@@ -3,12 +3,12 @@
 // forwards and backwards, so that conjugate gradients may use it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "solvers/mps/coarse_row.h"
 #include "solvers/mps/pressure_matrix.h"
 #include "solvers/scene.h"
 #include "solvers/vec3.h"
@@ -46,23 +46,6 @@ class Multigrid {
   std::int64_t memory_bytes() const;
 
  private:
-  /// One row of a coarse matrix while it is summed.
-  struct RowSum {
-    static constexpr std::size_t turns = 4;
-
-    void make_room(std::size_t cells);
-    void start(std::int32_t I, std::int32_t nowhere);
-    std::size_t place_of(std::int32_t J);
-    void add(const PressureMatrix<Real>& matrix, const std::vector<std::int32_t>& coarse, Span row,
-             std::int32_t nowhere);
-    void finish();
-
-    std::vector<std::int32_t> slot;     ///< place of a coarse column in this row, -1 for none
-    std::vector<std::int32_t> columns;  ///< by place
-    std::vector<std::array<Real, turns>> values;
-    std::vector<Real> totals;
-  };
-
   struct Level;
 
   void gather_cells(std::size_t level);
@@ -78,7 +61,7 @@ class Multigrid {
   int used_levels_ = 0;
   std::vector<std::unique_ptr<Level>> levels_;
   std::unique_ptr<DirectSolver> coarsest_;
-  std::vector<RowSum> row_sums_;  ///< one a thread
+  std::vector<CoarseRow<Real>> row_sums_;  ///< one a thread
 };
 
 extern template class Multigrid<float>;

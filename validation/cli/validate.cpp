@@ -31,10 +31,8 @@ struct Arguments {
 };
 
 const char* const footer =
-    "Runs the case at the tier with every solver and wall model: those with acceptance rows are judged, the others "
-    "stand beside "
-    "them\n"
-    "in the report. Runs land in runs/validate-TIER-...; exit code 1 when a band is missed.\n\n"
+    "Runs the case at the tier with every solver and wall model: those with acceptance rows are judged, the others\n"
+    "stand beside them in the report. Runs land in runs/validate-TIER-...; exit code 1 when a band is missed.\n\n"
     "Examples:\n"
     "  sluice validate --tier quick\n"
     "  sluice validate --tier standard --threads 2 --out reports/standard";

@@ -64,8 +64,6 @@ class RowIndex {
 
   std::span<const std::int32_t> order() const { return order_; }
   std::int32_t size() const { return static_cast<std::int32_t>(order_.size()); }
-  /// Particles of one row.
-  Run row(std::int32_t row) const { return {start_[at(row, 0)], start_[at(row, geometry_.nx)]}; }
   /// Particles of slices first .. last - 1 of a row.
   Run slices(std::int32_t row, std::int32_t first, std::int32_t last) const {
     return {start_[at(row, first)], start_[at(row, last)]};

@@ -17,6 +17,12 @@ struct Box {
   Vec3d upper;
 };
 
+/// Whether a point lies in a box or on its faces.
+inline bool holds_point(const Box& b, const Vec3d& p) {
+  return p.x >= b.lower.x && p.x <= b.upper.x && p.y >= b.lower.y && p.y <= b.upper.y && p.z >= b.lower.z &&
+         p.z <= b.upper.z;
+}
+
 inline double longest_edge(const Box& b) {
   return std::max({b.upper.x - b.lower.x, b.upper.y - b.lower.y, b.upper.z - b.lower.z});
 }

@@ -21,18 +21,13 @@ void for_each_near(const Particles<Pack>& p, const SearchSet& set, const Vec3d& 
   }
 }
 
-bool inside(const Box& b, const Vec3d& p) {
-  return p.x >= b.lower.x && p.x <= b.upper.x && p.y >= b.lower.y && p.y <= b.upper.y && p.z >= b.lower.z &&
-         p.z <= b.upper.z;
-}
-
 }  // namespace
 
 /// The sum that the WCSPH solver's sensors use, with the effective radius as kernel radius: sum P_b W_ab / sum W_ab
 /// over fluid particles b   [Pa]   Eq. (33)
 template <class Pack>
 PressureReading MpsSolver<Pack>::kernel_pressure(const Vec3d& point_m) const {
-  if (!inside(tank_.domain(), point_m)) return {};
+  if (!holds_point(tank_.domain(), point_m)) return {};
   const double h = smoothing_length_m();
   const double l0 = constants_.parameters.particle_distance_m;
   const double normalisation = wcsph::Wendland{h}.normalisation();
@@ -55,7 +50,7 @@ double MpsSolver<Pack>::volume_fraction(const Vec3d& point_m) const {
 
 template <class Pack>
 PressureReading MpsSolver<Pack>::wall_pressure(const Vec3d& point_m) const {
-  if (!inside(tank_.domain(), point_m)) return {};
+  if (!holds_point(tank_.domain(), point_m)) return {};
   double least = std::numeric_limits<double>::infinity();
   std::size_t nearest = 0;
   for_each_near(particles_, {wall_index_, particles_.first_wall()}, point_m, 0.0, [&](std::size_t j, double distance) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "solvers/mps/mps_solver.h"
+#include "solvers/require.h"
 
 namespace sluice::mps {
 namespace {
@@ -15,10 +16,6 @@ constexpr double slack_over_distance = 0.025;
 constexpr double slice_over_distance = 0.5;
 
 Parameters checked(const Parameters& p) {
-  const auto require = [](bool good, const char* name, double value, const char* range) {
-    if (!good)
-      throw std::invalid_argument(fmt::format("{} = {} is out of its range: it must be {}", name, value, range));
-  };
   require(p.particle_distance_m > 0, "particle_distance_m", p.particle_distance_m, "positive");
   require(p.effective_radius_over_distance >= 1.5 && p.effective_radius_over_distance <= 4,
           "effective_radius_over_distance", p.effective_radius_over_distance, "in [1.5, 4]");

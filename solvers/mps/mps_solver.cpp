@@ -1,9 +1,8 @@
 #include "solvers/mps/mps_solver.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <stdexcept>
+
+#include "solvers/leaving.h"
 
 namespace sluice::mps {
 
@@ -42,8 +41,11 @@ void MpsSolver<Pack>::move() {
 
 template <class Pack>
 void MpsSolver<Pack>::list_neighbours() {
-  find_leaving();
   const std::size_t first = particles_.first_fluid();
+  leaves_.resize(particles_.fluid);
+  const LostParticles left = find_leaving(tank_, particles_.position, first, leaves_, *this, threads_);
+  lost_.over_top += left.over_top;
+  lost_.through_walls += left.through_walls;
   const auto fluid = [&](const std::vector<double>& v) { return std::span<const double>(v).subspan(first); };
   const auto& x = particles_.position;
   fluid_index_.sort(fluid(x.x), fluid(x.y), fluid(x.z), leaves_, threads_);
@@ -53,33 +55,6 @@ void MpsSolver<Pack>::list_neighbours() {
   list_.list(particles_, {fluid_index_, first}, {wall_index_, particles_.first_wall(), &wall_proximity_},
              {dummy_index_, 0, &dummy_proximity_}, reach_, threads_);
   travel_m_ = 0;
-}
-
-/// Marks the particles that have left, and counts them.
-template <class Pack>
-void MpsSolver<Pack>::find_leaving() {
-  leaves_.resize(particles_.fluid);
-  std::int64_t over_top = 0;
-  std::int64_t through_walls = 0;
-  std::int64_t undefined = 0;
-  const auto n = static_cast<std::int64_t>(particles_.fluid);
-#pragma omp parallel for num_threads(threads_) schedule(static) reduction(+ : over_top, through_walls, undefined)
-  for (std::int64_t k = 0; k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const Whereabouts w = tank_.whereabouts(particles_.position.template at<double>(particles_.first_fluid() + i));
-    leaves_[i] = static_cast<std::uint8_t>(w);
-    over_top += w == Whereabouts::over_top;
-    through_walls += w == Whereabouts::through_wall;
-    undefined += w == Whereabouts::undefined;
-  }
-  if (undefined > 0) {
-    throw std::runtime_error(
-        fmt::format("{} particles have positions that are no numbers after step {} (t = {:.6f} s): the run has become "
-                    "unstable; try a smaller courant",
-                    undefined, steps_, time_s_));
-  }
-  lost_.over_top += over_top;
-  lost_.through_walls += through_walls;
 }
 
 template <class Pack>

@@ -63,8 +63,6 @@ class MpsSolver final : public Solver {
   void solve_pressures();
   void correct_velocities();
 
-  void find_leaving();
-
   int threads_;
   Tank tank_;
   OperatorConstants constants_;

@@ -22,17 +22,12 @@ void for_each_near(const Sorted<Pack>& sorted, const Vec3d& point, Visit&& visit
   }
 }
 
-bool inside(const Box& b, const Vec3d& p) {
-  return p.x >= b.lower.x && p.x <= b.upper.x && p.y >= b.lower.y && p.y <= b.upper.y && p.z >= b.lower.z &&
-         p.z <= b.upper.z;
-}
-
 }  // namespace
 
 /// P_a = sum_b P_b W_ab / sum_b W_ab over fluid particles b   [Pa]   Eq. (33)
 template <class Pack>
 PressureReading WcsphSolver<Pack>::kernel_pressure(const Vec3d& point_m) const {
-  if (!inside(tank_.domain(), point_m)) return {};
+  if (!holds_point(tank_.domain(), point_m)) return {};
   const double h = parameters_.smoothing_length_m();
   const double normalisation = Wendland{h}.normalisation();
   double weights = 0;
@@ -55,7 +50,7 @@ double WcsphSolver<Pack>::volume_fraction(const Vec3d& point_m) const {
 /// Mean over the first layer of the face on which the point lies, within h of the point.
 template <class Pack>
 PressureReading WcsphSolver<Pack>::wall_pressure(const Vec3d& point_m) const {
-  if (!inside(tank_.domain(), point_m)) return {};
+  if (!holds_point(tank_.domain(), point_m)) return {};
   const double h = parameters_.smoothing_length_m();
   const Tank::Face face = tank_.nearest_face(point_m);
   double sum = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solvers/require.h"
 #include "solvers/wcsph/equation_of_state.h"
 #include "solvers/wcsph/wcsph_solver.h"
 
@@ -17,10 +18,6 @@ constexpr double slack_over_distance = 0.08;
 constexpr double slice_over_distance = 0.5;
 
 Parameters checked(const Parameters& p) {
-  const auto require = [](bool good, const char* name, double value, const char* range) {
-    if (!good)
-      throw std::invalid_argument(fmt::format("{} = {} is out of its range: it must be {}", name, value, range));
-  };
   require(p.particle_distance_m > 0, "particle_distance_m", p.particle_distance_m, "positive");
   require(p.speed_of_sound_m_s > 0, "speed_of_sound_m_s", p.speed_of_sound_m_s, "positive");
   require(p.reference_density_kg_m3 > 0, "reference_density_kg_m3", p.reference_density_kg_m3, "positive");

@@ -1,11 +1,9 @@
 #include "solvers/wcsph/wcsph_solver.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "solvers/leaving.h"
 #include "solvers/wcsph/equation_of_state.h"
 #include "solvers/wcsph/time_step.h"
 #include "solvers/wcsph/verlet.h"
@@ -79,28 +77,10 @@ void WcsphSolver<Pack>::hold_at_walls() {
 template <class Pack>
 void WcsphSolver<Pack>::sort_if_due(bool at_once) {
   leaves_.resize(fluid_.n);
-  std::int64_t over_top = 0;
-  std::int64_t through_walls = 0;
-  std::int64_t undefined = 0;
-  const auto n = static_cast<std::int64_t>(fluid_.n);
-#pragma omp parallel for num_threads(threads_) schedule(static) reduction(+ : over_top, through_walls, undefined)
-  for (std::int64_t k = 0; k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const Whereabouts w = tank_.whereabouts(fluid_.position.template at<double>(i));
-    leaves_[i] = static_cast<std::uint8_t>(w);
-    over_top += w == Whereabouts::over_top;
-    through_walls += w == Whereabouts::through_wall;
-    undefined += w == Whereabouts::undefined;
-  }
-  if (undefined > 0) {
-    throw std::runtime_error(
-        fmt::format("{} particles have positions that are no numbers after step {} (t = {:.6f} s): the run has "
-                    "become unstable; try a smaller Courant number",
-                    undefined, steps_, time_s_));
-  }
-  if (!at_once && travel_m_ <= fluid_index_.geometry().slack_m && over_top + through_walls == 0) return;
-  lost_.over_top += over_top;
-  lost_.through_walls += through_walls;
+  const LostParticles left = find_leaving(tank_, fluid_.position, 0, leaves_, *this, threads_);
+  if (!at_once && travel_m_ <= fluid_index_.geometry().slack_m && left.over_top + left.through_walls == 0) return;
+  lost_.over_top += left.over_top;
+  lost_.through_walls += left.through_walls;
   fluid_index_.sort(fluid_.position.x, fluid_.position.y, fluid_.position.z, leaves_, threads_);
   fluid_.permute(fluid_index_.order(), threads_);
   travel_m_ = 0;

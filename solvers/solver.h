@@ -22,6 +22,13 @@ struct PressureReading {
   double support = 0;  ///< share of the kernel's (or the patch's) support that was filled, 0..1 or a little over
 };
 
+/// The fluid as a whole.
+struct FluidTotals {
+  double kinetic_energy_J = 0;
+  double potential_energy_J = 0;      ///< in gravity, zero at the origin
+  double greatest_density_ratio = 0;  ///< rho / rho_0 of the densest particle (MPS: n / n0)
+};
+
 /// A copy of the particles for pictures and for tests, fluid first.
 struct ParticleSnapshot {
   double time_s = 0;
@@ -63,6 +70,10 @@ class Solver {
   virtual double volume_fraction(const Vec3d& point_m) const = 0;
   /// The smoothing length h [m] (MPS: half the effective radius): the scale of offsets from walls.
   virtual double smoothing_length_m() const = 0;
+
+  virtual FluidTotals totals() const = 0;
+  /// One line on the last step that a log may hold (MPS: how its pressure equation converged); empty: nothing to tell.
+  virtual std::string step_note() const { return {}; }
 
   virtual ParticleSnapshot snapshot() const = 0;
 };

@@ -70,6 +70,7 @@ class Run {
         snapshots_(options.out),
         progress_(options.progress, options.terminal, settings.t_end_s),
         log_(log),
+        log_steps_(options.log_steps),
         manifest_(start_manifest(c, settings, scene, sensors_.placed())) {
     for (const auto& warning : manifest_["warnings"]) log_.line("warning: " + warning.get<std::string>());
     refresh_manifest();
@@ -84,6 +85,8 @@ class Run {
       outcome = ending();
     } catch (const std::exception& error) {
       outcome = {"failed", error.what(), 1};
+      log_.line(step_text());
+      keep_state();
     }
     progress_.finish(state());
     close(outcome);
@@ -106,6 +109,7 @@ class Run {
     tally_.dt_min_s = std::min(tally_.dt_min_s, dt_s);
     tally_.dt_max_s = std::max(tally_.dt_max_s, dt_s);
     tally_.particle_steps += static_cast<double>(solver_->fluid_count());
+    if (log_steps_) log_.line(step_text());
     sample_if_due();
     if (const std::string text = progress_.update(state()); !text.empty()) log_.line(text);
     if (seconds_since(last_manifest_) > manifest_interval_s) refresh_manifest();
@@ -125,9 +129,28 @@ class Run {
          ++next_snapshot_)
       due = true;
     if (!due) return;
+    write_snapshot();
+  }
+
+  void write_snapshot() {
     const Stopwatch watch(tally_.output_s);
     const auto file = snapshots_.write(solver_->snapshot());
     log_.line(fmt::format("snapshot at t = {:.4f} s: {}", solver_->time_s(), file.filename().string()));
+  }
+
+  // The particles as a failed step left them, so that the failure can be looked into.
+  void keep_state() {
+    try {
+      write_snapshot();
+    } catch (const std::exception& error) {
+      log_.line(fmt::format("the state could not be saved: {}", error.what()));
+    }
+  }
+
+  std::string step_text() const {
+    const std::string note = solver_->step_note();
+    return fmt::format("step {}, t = {:.6f} s, dt = {:.3e} s{}{}", solver_->steps(), solver_->time_s(), dt_s_,
+                       note.empty() ? "" : ", ", note);
   }
 
   RunOutcome ending() const {
@@ -182,6 +205,7 @@ class Run {
   SnapshotWriter snapshots_;
   Progress progress_;
   RunLog& log_;
+  bool log_steps_;
   nlohmann::json manifest_;
   RunTally tally_;
   std::vector<double> values_;

@@ -20,6 +20,7 @@ struct RunOptions {
   std::filesystem::path out;
   bool force = false;                                  ///< replace a finished run that stands in `out`
   std::FILE* progress = nullptr;                       ///< plan and progress go here; nullptr: nowhere
+  bool log_steps = false;                              ///< log.txt has a line for every step
   bool terminal = false;                               ///< `progress` is a terminal
   SolverFactory factory;                               ///< empty: make_solver()
   std::optional<std::int64_t> available_memory_bytes;  ///< none: ask the system

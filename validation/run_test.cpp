@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr std::int64_t plenty = std::int64_t{1} << 40;
 
@@ -42,6 +43,11 @@ class RunTest : public testing::Test {
   ~RunTest() override { fs::remove_all(directory); }
 
   RunOutcome run() { return run_case(c, resolve_settings(c, request), options); }
+
+  std::string log_text() const {
+    std::ifstream in(directory / "log.txt");
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
 
   Case c;
   RunRequest request;
@@ -129,6 +135,26 @@ TEST_F(RunTest, AFailureKeepsWhatWasComputed) {
   EXPECT_EQ(record.text("error"), "the moon fell into the tank");
   EXPECT_EQ(record.number("steps"), 50);
   EXPECT_NEAR(record.probes.times_s().back(), 0.02, 1e-9);
+}
+
+TEST_F(RunTest, AFailureSavesTheStateItFailedAt) {
+  options.log_steps = false;
+  trouble = [](FakeSolver& solver) {
+    if (solver.steps() == 50) throw std::runtime_error("no convergence");
+  };
+  run();
+  ASSERT_EQ(read_run(directory).snapshots().size(), 1u);
+  EXPECT_THAT(log_text(), AllOf(HasSubstr("snapshot at t = 0.0200 s"), HasSubstr("note of step 50")));
+}
+
+TEST_F(RunTest, StepsAreLoggedOnRequestOnly) {
+  run();
+  EXPECT_THAT(log_text(), Not(HasSubstr("note of step")));
+  options.force = true;
+  options.log_steps = true;
+  run();
+  EXPECT_THAT(log_text(), AllOf(HasSubstr("step 1, t = 0.000400 s, dt = 4.000e-04 s, note of step 1\n"),
+                                HasSubstr("note of step 125\n")));
 }
 
 TEST_F(RunTest, ValuesThatAreNoNumbersEndTheRun) {

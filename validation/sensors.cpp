@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 #include "validation/case.h"
 
@@ -210,6 +212,18 @@ Vec3d on_fitted_face(const Scene& scene, const Vec3d& position_m, const Vec3d& n
   return placed;
 }
 
+namespace {
+
+// What no position belongs to: energies of the fluid, and its densest particle.
+constexpr std::array<std::string_view, 3> totals_columns{"kinetic_energy_J", "potential_energy_J",
+                                                         "greatest_density_ratio_1"};
+
+void append_totals(const FluidTotals& totals, std::vector<double>& values) {
+  values.insert(values.end(), {totals.kinetic_energy_J, totals.potential_energy_J, totals.greatest_density_ratio});
+}
+
+}  // namespace
+
 SensorArray::SensorArray(const Case& the_case, const Scene& scene, double smoothing_length_m, std::string_view solver,
                          std::string_view walls) {
   for (const CaseSensor& sensor : the_case.sensors)
@@ -219,12 +233,14 @@ SensorArray::SensorArray(const Case& the_case, const Scene& scene, double smooth
 std::vector<std::string> SensorArray::columns() const {
   std::vector<std::string> names;
   for (const auto& sensor : sensors_) sensor->append_columns(names);
+  names.insert(names.end(), totals_columns.begin(), totals_columns.end());
   return names;
 }
 
 void SensorArray::sample(const Solver& solver, std::vector<double>& values) const {
   values.clear();
   for (const auto& sensor : sensors_) sensor->append_values(solver, values);
+  append_totals(solver.totals(), values);
 }
 
 std::vector<PlacedSensor> SensorArray::placed() const {

@@ -77,7 +77,8 @@ class Sensor {
 
 /// All sensors of a case in the case's order. Readings are taken on the fitted geometry. For a pressure sensor P1:
 /// P1_Pa (the primary model), P1_wall_Pa, P1_kernel_Pa, P1_kernel_support_1; for a wave probe H1: H1_m (the primary
-/// model), H1_column_m, H1_top_m.
+/// model), H1_column_m, H1_top_m. After them, for every case: kinetic_energy_J, potential_energy_J,
+/// greatest_density_ratio_1 (solvers/solver.h).
 class SensorArray {
  public:
   /// Places the case's sensors in the scene. `solver` and `walls` choose the primary models (such as "wcsph",

@@ -67,6 +67,7 @@ class Particles : public Solver {
   PhaseTimes phases() const override { return {}; }
   std::int64_t memory_bytes() const override { return 0; }
   std::map<std::string, double> facts() const override { return {}; }
+  FluidTotals totals() const override { return {1, 2, 1.25}; }
   ParticleSnapshot snapshot() const override { return {}; }
 };
 
@@ -216,7 +217,8 @@ double value_of(const SensorArray& array, const Solver& solver, const std::strin
 TEST(SensorArray, NamesTheColumnsOfTheRunDirectory) {
   const SensorArray array(small_case(), moved_box(), h, "wcsph", "extrapolated");
   EXPECT_EQ(array.columns(), (std::vector<std::string>{"H1_m", "H1_column_m", "H1_top_m", "P1_Pa", "P1_wall_Pa",
-                                                       "P1_kernel_Pa", "P1_kernel_support_1"}));
+                                                       "P1_kernel_Pa", "P1_kernel_support_1", "kinetic_energy_J",
+                                                       "potential_energy_J", "greatest_density_ratio_1"}));
 }
 
 TEST(SensorArray, ThePlainColumnIsThePrimaryModelOfTheWalls) {
@@ -267,6 +269,14 @@ TEST(SensorArray, AProbeOverTheBoxStandsOnIt) {
   c.sensors[0].position_m = {0.75, 0.5, 0};
   const SensorArray array(c, moved_box(), h, "wcsph", "extrapolated");
   EXPECT_DOUBLE_EQ(array.placed().at(0).placed_m.z, 0.16);
+}
+
+TEST(SensorArray, TotalsOfTheFluidStandBehindTheSensors) {
+  const Particles solver;
+  const SensorArray array(small_case(), moved_box(), h, "wcsph", "extrapolated");
+  EXPECT_EQ(value_of(array, solver, "kinetic_energy_J"), 1);
+  EXPECT_EQ(value_of(array, solver, "potential_energy_J"), 2);
+  EXPECT_EQ(value_of(array, solver, "greatest_density_ratio_1"), 1.25);
 }
 
 TEST(SensorArray, NamesASensorWhoseModelIsUnknown) {

@@ -1,9 +1,13 @@
 // What sensors see of an MPS run, and snapshots of it. All sums here are scalar and in double precision.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "solvers/mps/mps_solver.h"
+#include "solvers/totals.h"
 #include "solvers/wcsph/kernel.h"
 
 namespace sluice::mps {
@@ -60,6 +64,24 @@ PressureReading MpsSolver<Pack>::wall_pressure(const Vec3d& point_m) const {
   });
   if (!std::isfinite(least)) return {};
   return {particles_.pressure[nearest], 1};
+}
+
+template <class Pack>
+FluidTotals MpsSolver<Pack>::totals() const {
+  const Parameters& p = constants_.parameters;
+  const double mass_kg = p.density_kg_m3 * std::pow(p.particle_distance_m, 3);
+  const std::size_t first = particles_.first_fluid();
+  FluidTotals totals =
+      energies(particles_.position, particles_.velocity, first, particles_.fluid, mass_kg, p.gravity_m_s2);
+  totals.greatest_density_ratio = greatest_number_density() / constants_.lattice.number_density;
+  return totals;
+}
+
+template <class Pack>
+std::string MpsSolver<Pack>::step_note() const {
+  const auto& history = pressure_equation_.history();
+  return fmt::format("{} unknowns, {} iterations, relative residuals {:.2e}", unknowns_,
+                     std::max<std::size_t>(history.size(), 1) - 1, fmt::join(history, " "));
 }
 
 template <class Pack>

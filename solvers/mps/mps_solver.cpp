@@ -79,17 +79,21 @@ void MpsSolver<Pack>::correct_velocities() {
   const CorrectionReport report = correct(particles_, list_, constants_, threads_);
   plain_gradients_ += report.plain_gradients;
   fluid_steps_ += static_cast<std::int64_t>(particles_.fluid);
-  const auto first = particles_.number_density.begin() + static_cast<std::ptrdiff_t>(particles_.first_fluid());
-  if (first != particles_.number_density.end()) {
-    const auto most = static_cast<double>(*std::max_element(first, particles_.number_density.end()));
-    greatest_density_ratio_ = std::max(greatest_density_ratio_, most / constants_.lattice.number_density);
-  }
+  greatest_density_ratio_ =
+      std::max(greatest_density_ratio_, greatest_number_density() / constants_.lattice.number_density);
   travel_m_ = report.greatest_move_m;
   if (travel_m_ > fluid_index_.geometry().slack_m) {
     list_neighbours();
   } else {
     particles_.encode_positions(tank_.domain(), particles_.first_fluid(), threads_);
   }
+}
+
+template <class Pack>
+double MpsSolver<Pack>::greatest_number_density() const {
+  const auto first = particles_.number_density.begin() + static_cast<std::ptrdiff_t>(particles_.first_fluid());
+  const auto last = first + static_cast<std::ptrdiff_t>(particles_.fluid);
+  return first == last ? 0.0 : static_cast<double>(*std::max_element(first, last));
 }
 
 template class MpsSolver<FloatPack>;

@@ -42,6 +42,9 @@ class MpsSolver final : public Solver {
   PressureReading wall_pressure(const Vec3d& point_m) const override;
   double volume_fraction(const Vec3d& point_m) const override;
   double smoothing_length_m() const override { return 0.5 * constants_.parameters.effective_radius_m(); }
+  FluidTotals totals() const override;
+  /// Unknowns, iterations, and the relative residual before the first and after each.
+  std::string step_note() const override;
   ParticleSnapshot snapshot() const override;
 
   const Particles<Pack>& particles() const { return particles_; }
@@ -62,6 +65,8 @@ class MpsSolver final : public Solver {
   void list_neighbours();
   void solve_pressures();
   void correct_velocities();
+
+  double greatest_number_density() const;  ///< of the fluid, at the last solution
 
   int threads_;
   Tank tank_;

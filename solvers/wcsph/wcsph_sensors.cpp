@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/totals.h"
 #include "solvers/wcsph/equation_of_state.h"
 #include "solvers/wcsph/kernel.h"
 #include "solvers/wcsph/wcsph_solver.h"
@@ -63,6 +64,17 @@ PressureReading WcsphSolver<Pack>::wall_pressure(const Vec3d& point_m) const {
     ++count;
   });
   return {count > 0 ? sum / count : 0.0, static_cast<double>(count > 0)};
+}
+
+template <class Pack>
+FluidTotals WcsphSolver<Pack>::totals() const {
+  FluidTotals totals = energies(fluid_.position, fluid_.velocity, 0, fluid_.n, static_cast<double>(constants_.mass),
+                                parameters_.gravity_m_s2);
+  if (fluid_.n == 0) return totals;
+  const auto first = fluid_.density.begin();
+  const double deviation = static_cast<double>(*std::max_element(first, first + static_cast<std::ptrdiff_t>(fluid_.n)));
+  totals.greatest_density_ratio = 1 + deviation / parameters_.reference_density_kg_m3;
+  return totals;
 }
 
 template <class Pack>

@@ -36,6 +36,7 @@ class WcsphSolver final : public Solver {
   PressureReading wall_pressure(const Vec3d& point_m) const override;
   double volume_fraction(const Vec3d& point_m) const override;
   double smoothing_length_m() const override { return parameters_.smoothing_length_m(); }
+  FluidTotals totals() const override;
   ParticleSnapshot snapshot() const override;
 
   const Particles<Pack>& fluid() const { return fluid_; }

@@ -24,6 +24,7 @@ struct Arguments {
   std::string out;
   bool dry_run = false;
   bool force = false;
+  bool log_steps = false;
 };
 
 const char* const footer =
@@ -54,6 +55,7 @@ int run(const CLI::App& command, Arguments& arguments) {
   RunOptions options;
   options.out = arguments.out.empty() ? default_run_directory(c, settings) : std::filesystem::path(arguments.out);
   options.force = arguments.force;
+  options.log_steps = arguments.log_steps;
   if (arguments.dry_run) {
     const Plan plan = plan_run(c, settings);
     fmt::print("{}into {}\n", describe(plan, available_memory_bytes()), options.out.string());
@@ -87,6 +89,8 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_flag("--snapshots", arguments->request.snapshots, "Write ParaView snapshots at the case's times");
   command->add_option("--snapshot-every", arguments->request.snapshot_every_s, "Write snapshots at this interval [s]")
       ->check(CLI::PositiveNumber);
+  command->add_flag("--log-steps", arguments->log_steps,
+                    "A line in log.txt for every step; with MPS, the residuals of its pressure equation");
   command->add_flag("--dry-run", arguments->dry_run, "Print particles, memory and expected time, and stop");
   command->add_flag("--force", arguments->force, "Replace a run that stands in the directory already");
   command->footer(footer);

@@ -21,7 +21,20 @@ using namespace sluice;
 struct Stretch {
   double from_s = 0.2;
   double to_s = 0.3;
+  double jitter = 0;  ///< in particle distances
 };
+
+/// Displaces the fluid by up to jitter l0 along every axis, the same way each time: disorder at once, for sizes at
+/// which the flow takes an hour to make it.
+void disorder(Scene& scene, double jitter) {
+  std::uint32_t state = 12345;
+  const auto displacement_m = [&] {
+    state = state * 1664525U + 1013904223U;
+    return jitter * scene.description.particle_distance_m * (2.0 * (state >> 8) / 16777216.0 - 1);
+  };
+  for (Vec3d& x : scene.fluid)
+    for (double* coordinate : {&x.x, &x.y, &x.z}) *coordinate += displacement_m();
+}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -44,7 +57,8 @@ double run_to(Solver& solver, const SensorArray& sensors, double to_s, double ra
 }
 
 void measure(const Case& c, const RunSettings& settings, const Stretch& stretch) {
-  const Scene scene = build_scene(scene_description(c, settings.l0_m, settings.wall_layers));
+  Scene scene = build_scene(scene_description(c, settings.l0_m, settings.wall_layers));
+  disorder(scene, stretch.jitter);
   const auto solver = make_solver(c, scene, settings);
   const SensorArray sensors(c, scene, solver->smoothing_length_m(), settings.solver, settings.walls);
   run_to(*solver, sensors, stretch.from_s, settings.output_rate_Hz);
@@ -100,6 +114,10 @@ int main(int argc, char** argv) {
   app.add_option("--set", overrides, "key=value: parameters of the solver");
   app.add_option("--from", stretch.from_s, "Begin of the timed stretch [s]")->capture_default_str();
   app.add_option("--to", stretch.to_s, "End of the timed stretch [s]")->capture_default_str();
+  app.add_option(
+         "--jitter", stretch.jitter,
+         "Displace the fluid at the start by up to this many particle distances, to time disorder from --from 0")
+      ->check(CLI::Range(0.0, 0.5));
   CLI11_PARSE(app, argc, argv);
   try {
     const Case c = load_case(case_name);

@@ -28,10 +28,11 @@ class CoarseRow {
 
   /// Adds the entries of one row of the finer matrix; `coarse` is the cell of each of its columns, or negative.
   /// Neighbouring entries mostly go to one cell, and each addition would wait for the one before: so they take turns.
-  void add(const PressureMatrix<Real>& matrix, const std::vector<std::int32_t>& coarse, Span row) {
+  void add(const MatrixRows<Real>& rows, const std::vector<std::int32_t>& coarse, std::size_t i) {
+    const Span row = rows.entries[i];
     for (std::uint32_t k = row.begin; k < row.end; ++k) {
-      const std::int32_t J = coarse[static_cast<std::size_t>(matrix.columns[k])];
-      values_[place_of(J < 0 ? nowhere_ : J)][k % turns] += matrix.weights[k];
+      const std::int32_t J = coarse[static_cast<std::size_t>(rows.columns[k])];
+      values_[place_of(J < 0 ? nowhere_ : J)][k % turns] += rows.weights[k];
     }
   }
 

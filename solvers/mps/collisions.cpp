@@ -17,15 +17,11 @@ struct Distances {
   double pair_m;
   double wall_m;
   double support_m;
-  double least_weight;  ///< of a neighbour that can matter: no pair comes closer by more than 2 Cr l0 in a step
 
   explicit Distances(const Parameters& p)
       : pair_m(p.collision_over_distance * p.particle_distance_m),
         wall_m(p.wall_contact_over_distance * p.particle_distance_m),
-        support_m(normal_support_over_distance * p.particle_distance_m) {
-    const double reach = std::max(pair_m, support_m) + 2 * p.courant * p.particle_distance_m;
-    least_weight = std::max(0.0, p.effective_radius_m() / reach - 1);
-  }
+        support_m(normal_support_over_distance * p.particle_distance_m) {}
 };
 
 /// The wall as a fluid particle meets it.
@@ -59,10 +55,9 @@ Vec3d velocity_change(const Particles<Pack>& p, const VectorField<double>& wall_
   const Vec3d u = p.velocity.template at<double>(i);
   Vec3d change;
   WallAhead wall;
-  const Span span = list.with_pressure(i);
+  const Span span = list.near().span(i);
   for (std::uint32_t at = span.begin; at < span.end; ++at) {
-    if (static_cast<double>(list.weights()[at]) <= d.least_weight) continue;
-    const auto j = static_cast<std::size_t>(list.columns()[at]);
+    const auto j = static_cast<std::size_t>(list.near().columns()[at]);
     const Vec3d r = p.position.template at<double>(j) - x;
     if (!p.is_fluid(j)) {
       wall.add(r, wall_normals.at<double>(j - p.first_wall()), d.support_m);
@@ -76,6 +71,12 @@ Vec3d velocity_change(const Particles<Pack>& p, const VectorField<double>& wall_
 }
 
 }  // namespace
+
+/// No pair comes closer by more than 2 Cr l0 in a step.
+double collision_reach_m(const Parameters& p) {
+  const Distances d(p);
+  return std::max(d.pair_m, d.support_m) + 2 * p.courant * p.particle_distance_m;
+}
 
 template <class Pack>
 std::int64_t collide(const Particles<Pack>& p, const VectorField<double>& wall_normals, const NeighbourList<Pack>& list,

@@ -24,6 +24,9 @@ std::int64_t collide(const Particles<Pack>& particles, const VectorField<double>
                      const NeighbourList<Pack>& list, const OperatorConstants& c,
                      VectorField<typename Lanes<Pack>::Real>& after, int threads);
 
+/// Within this distance two particles, or a particle and a wall, may meet in the next step   [m]
+double collision_reach_m(const Parameters& parameters);
+
 /// Unit normals of the wall particles into the fluid: away from the dummy particles behind them.
 template <class Pack>
 VectorField<double> wall_normals(const Particles<Pack>& particles, const RowIndex& dummies, double particle_distance_m);

@@ -36,7 +36,7 @@ Convergence ConjugateGradients<Real>::solve(const PressureMatrix<Real>& A, std::
                                             double tolerance, int most_iterations) {
   for (auto* v : {&residual_, &preconditioned_, &direction_, &product_}) v->resize(A.end);
   const auto applied = [&](std::size_t i, const double* v) {
-    return A.has_row[i] != 0 ? static_cast<double>(A.diagonal[i]) * v[i] - off_diagonal(A, i, v) : 0.0;
+    return A.has_row[i] != 0 ? static_cast<double>(A.all.diagonal[i]) * v[i] - off_diagonal(A.all, i, v) : 0.0;
   };
   history_.clear();
   double* const r = residual_.data();
@@ -90,7 +90,7 @@ void jacobi(const PressureMatrix<Real>& A, std::span<const double> r, std::span<
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (auto k = static_cast<std::int64_t>(A.begin); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    z[i] = A.has_row[i] != 0 ? r[i] / static_cast<double>(A.diagonal[i]) : 0.0;
+    z[i] = A.has_row[i] != 0 ? r[i] / static_cast<double>(A.all.diagonal[i]) : 0.0;
   }
 }
 

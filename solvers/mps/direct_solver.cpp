@@ -51,12 +51,13 @@ void DirectSolver::factorise(const PressureMatrix<Real>& A) {
   for (std::size_t i = A.begin; i < A.end; ++i) {
     if (f.row_of[i] < 0) continue;
     f.row_index.push_back(f.row_of[i]);
-    f.value.push_back(static_cast<double>(A.diagonal[i]));
-    for (std::uint32_t k = A.rows[i].begin; k < A.rows[i].end; ++k) {
-      const std::int32_t row = f.row_of[static_cast<std::size_t>(A.columns[k])];
+    f.value.push_back(static_cast<double>(A.all.diagonal[i]));
+    const Span entries = A.all.entries[i];
+    for (std::uint32_t k = entries.begin; k < entries.end; ++k) {
+      const std::int32_t row = f.row_of[static_cast<std::size_t>(A.all.columns[k])];
       if (row < 0 || row >= f.row_of[i]) continue;
       f.row_index.push_back(row);
-      f.value.push_back(-static_cast<double>(A.weights[k]));
+      f.value.push_back(-static_cast<double>(A.all.weights[k]));
     }
     f.column_start.push_back(static_cast<int>(f.row_index.size()));
   }

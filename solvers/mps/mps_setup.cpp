@@ -39,6 +39,11 @@ double list_radius_m(const Parameters& p) {
   return p.effective_radius_m() + 2 * slack_over_distance * p.particle_distance_m;
 }
 
+/// Of the 44 neighbours of a full lattice 18 are near, with six sevenths of the weight.
+double near_radius_m(const Parameters& p) {
+  return std::min(p.effective_radius_m(), std::max(1.7 * p.particle_distance_m, collision_reach_m(p)));
+}
+
 RowGeometry rows(const Tank& tank, const Parameters& p) {
   const double l0 = p.particle_distance_m;
   return {tank.domain(), list_radius_m(p), slack_over_distance * l0, slice_over_distance * l0};
@@ -58,11 +63,13 @@ template <class Pack>
 MpsSolver<Pack>::MpsSolver(const Scene& scene, const Parameters& parameters, int threads)
     : threads_(std::max(1, threads)),
       tank_(scene),
-      constants_{checked(parameters),
-                 lattice_constants(parameters.particle_distance_m, parameters.effective_radius_m()),
-                 FixedPoint<typename Lanes<Pack>::Coordinate>::quantum_m(longest_edge(tank_.domain())),
-                 parameters.time_step_s()},
-      reach_{constants_.quantum_m, parameters.effective_radius_m(), list_radius_m(parameters)},
+      constants_{
+          checked(parameters),
+          lattice_constants(parameters.particle_distance_m, parameters.effective_radius_m(), near_radius_m(parameters)),
+          FixedPoint<typename Lanes<Pack>::Coordinate>::quantum_m(longest_edge(tank_.domain())),
+          parameters.time_step_s()},
+      reach_{constants_.quantum_m, parameters.effective_radius_m(), list_radius_m(parameters),
+             near_radius_m(parameters)},
       fluid_index_(rows(tank_, parameters)),
       wall_index_(rows(tank_, parameters)),
       dummy_index_(rows(tank_, parameters)),

@@ -24,7 +24,7 @@ struct Operators {
         middle{20 * l0, 20 * l0, 20 * l0} {
     p.viscosity_m2_s = 1;
     p.gravity_m_s2 = {0, 0, 0};
-    constants = {p, lattice_constants(l0, p.effective_radius_m()), 1.0, 1.0};
+    constants = {p, lattice_constants(l0, p.effective_radius_m(), p.effective_radius_m()), 1.0, 1.0};
   }
 
   bool is_inside(std::size_t i) const {

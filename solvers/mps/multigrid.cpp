@@ -10,8 +10,9 @@
 namespace sluice::mps {
 namespace {
 
-/// Jacobi smoothing: x += damping (b - A x) / diagonal. The spectrum of diagonal^-1 A ends near 1.3.
-constexpr double damping = 0.8;
+// Smoothing is one step of Jacobi: the spectrum of diagonal^-1 A ends near 1.3, so that it needs no damping. On the
+// finest level the matrix of near neighbours stands in for the whole one: half the entries, and no more iterations.
+
 /// Sums over cells make a coarse matrix too stiff; its correction is scaled up (Braess 1995, Computing 55:379).
 constexpr double over_correction = 1.8;
 /// A level with no more unknowns than this is solved directly.
@@ -35,7 +36,6 @@ struct Multigrid<Real>::Level {
   std::int32_t nx = 0, ny = 0, nz = 0;  ///< grid of those cells
   // This level's own matrix, unless it is the finest.
   SparseRows<Real> rows;
-  std::vector<Span> spans;
   std::vector<Real> diagonal;
   std::vector<std::uint8_t> has_row;
 
@@ -151,7 +151,6 @@ void Multigrid<Real>::sum_coarse_matrix(std::size_t l) {
   const std::size_t cells = coarse.cell.size();
   coarse.diagonal.resize(cells);
   coarse.has_row.assign(cells, 1);
-  coarse.spans.resize(cells);
   coarse.rows.reserve(cells, 32 * cells);
   for (CoarseRow<Real>& sum : row_sums_) sum.make_room(cells);
   do {
@@ -167,8 +166,8 @@ void Multigrid<Real>::sum_coarse_matrix(std::size_t l) {
         Real diagonal{};
         for (auto m = fine.member_start[I]; m < fine.member_start[I + 1]; ++m) {
           const auto i = static_cast<std::size_t>(fine.members[static_cast<std::size_t>(m)]);
-          diagonal += fine.matrix.diagonal[i];
-          sum.add(fine.matrix, fine.coarse, fine.matrix.rows[i]);
+          diagonal += fine.matrix.all.diagonal[i];
+          sum.add(fine.matrix.all, fine.coarse, i);
         }
         sum.finish();
         coarse.diagonal[I] = diagonal - sum.within();
@@ -176,9 +175,8 @@ void Multigrid<Real>::sum_coarse_matrix(std::size_t l) {
       }
     }
   } while (coarse.rows.grew_for_more());
-  for (std::size_t I = 0; I < cells; ++I) coarse.spans[I] = coarse.rows.span(I);
-  coarse.matrix = {coarse.spans, coarse.rows.columns(), coarse.rows.values(), coarse.diagonal, coarse.has_row, 0,
-                   cells};
+  const MatrixRows<Real> rows{coarse.rows.spans(), coarse.rows.columns(), coarse.rows.values(), coarse.diagonal};
+  coarse.matrix = {rows, rows, coarse.has_row, 0, cells};
 }
 
 template <class Real>
@@ -218,7 +216,7 @@ void Multigrid<Real>::smooth_from_zero(Level& level) {
 #pragma omp parallel for num_threads(threads_) schedule(static, rows_at_once)
   for (auto k = static_cast<std::int64_t>(level.begin()); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    level.x[i] = level.matrix.has_row[i] != 0 ? static_cast<Real>(damping) * level.b[i] / level.matrix.diagonal[i] : 0;
+    level.x[i] = level.matrix.has_row[i] != 0 ? level.b[i] / level.matrix.near.diagonal[i] : 0;
   }
 }
 
@@ -232,8 +230,8 @@ void Multigrid<Real>::restrict_residual(Level& fine, Level& coarse) {
     for (auto k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
       fine.scratch[i] = fine.coarse[i] < 0 ? 0
-                                           : fine.b[i] - fine.matrix.diagonal[i] * fine.x[i] +
-                                                 off_diagonal(fine.matrix, i, fine.x.data());
+                                           : fine.b[i] - fine.matrix.near.diagonal[i] * fine.x[i] +
+                                                 off_diagonal(fine.matrix.near, i, fine.x.data());
     }
 #pragma omp for schedule(static, rows_at_once)
     for (std::int64_t c = 0; c < cells; ++c) {
@@ -262,9 +260,7 @@ void Multigrid<Real>::correct_and_smooth(Level& fine, const Level& coarse) {
     for (auto k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
       if (fine.coarse[i] < 0) continue;
-      const Real residual = fine.b[i] + off_diagonal(fine.matrix, i, fine.scratch.data());
-      const auto w = static_cast<Real>(damping);
-      fine.x[i] = (1 - w) * fine.scratch[i] + w * residual / fine.matrix.diagonal[i];
+      fine.x[i] = (fine.b[i] + off_diagonal(fine.matrix.near, i, fine.scratch.data())) / fine.matrix.near.diagonal[i];
     }
   }
 }
@@ -275,7 +271,7 @@ std::int64_t Multigrid<Real>::memory_bytes() const {
   for (const auto& l : levels_) {
     sum += bytes(l->x) + bytes(l->b) + bytes(l->scratch) + bytes(l->cell) + bytes(l->coarse) +
            bytes(l->number_of_cell) + bytes(l->member_start) + bytes(l->members) + l->rows.memory_bytes() +
-           bytes(l->spans) + bytes(l->diagonal) + bytes(l->has_row);
+           bytes(l->diagonal) + bytes(l->has_row);
   }
   return sum;
 }

@@ -10,6 +10,7 @@
 namespace sluice::mps {
 namespace {
 
+constexpr std::size_t expected_near = 26;
 constexpr std::size_t expected_row = 44;  // neighbours in a full lattice and a few more
 
 }  // namespace
@@ -19,10 +20,13 @@ void NeighbourList<Pack>::list(Particles<Pack>& particles, const SearchSet& flui
                                const SearchSet& dummies, const Reach& reach, int threads) {
   const auto n = static_cast<std::int64_t>(particles.size());
   collectors_.resize(static_cast<std::size_t>(threads));
+  const auto least_near_weight = static_cast<Real>(reach.effective_radius_m / reach.near_radius_m - 1);
+  near_.reserve(particles.size(), expected_near * (particles.fluid + particles.walls / 2));
   dummies_.resize(particles.size());
   rows_.reserve(particles.size(), expected_row * (particles.fluid + particles.walls / 2));
   do {
     rows_.clear(particles.size());
+    near_.clear(particles.size());
 #pragma omp parallel num_threads(threads)
     {
       Collector& c = collectors_[static_cast<std::size_t>(omp_get_thread_num())];
@@ -30,6 +34,7 @@ void NeighbourList<Pack>::list(Particles<Pack>& particles, const SearchSet& flui
       const double list_radius = reach.list_radius_m / reach.quantum_m;
       c.list_radius2 = static_cast<Real>(list_radius * list_radius);
       typename SparseRows<Real>::Writer writer(rows_);
+      typename SparseRows<Real>::Writer near_writer(near_);
 #pragma omp for schedule(dynamic, 256)
       for (auto k = static_cast<std::int64_t>(particles.first_wall()); k < n; ++k) {
         const auto i = static_cast<std::size_t>(k);
@@ -40,11 +45,13 @@ void NeighbourList<Pack>::list(Particles<Pack>& particles, const SearchSet& flui
           if (walls.proximity->any_near(x)) c.add(particles, i, walls);
         }
         const std::size_t with_pressure = c.count;
+        c.pick_near(least_near_weight);
+        near_writer.write(i, c.near_column.data(), c.near_weight.data(), c.near);
         if (with_pressure > 0 && dummies.proximity->any_near(x)) c.add(particles, i, dummies);
         finish_row(particles, i, c, reach.quantum_m, writer, c.count - with_pressure);
       }
     }
-  } while (rows_.grew_for_more());
+  } while (static_cast<int>(rows_.grew_for_more()) + static_cast<int>(near_.grew_for_more()) > 0);
 }
 
 template <class Pack>
@@ -59,6 +66,18 @@ void NeighbourList<Pack>::Collector::make_room(std::size_t wanted) {
   if (column.size() >= wanted) return;
   column.resize(2 * wanted);
   weight.resize(2 * wanted);
+}
+
+template <class Pack>
+void NeighbourList<Pack>::Collector::pick_near(Real least_weight) {
+  near_column.resize(column.size());
+  near_weight.resize(column.size());
+  near = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    near_column[near] = column[k];
+    near_weight[near] = weight[k];
+    near += weight[k] > least_weight;
+  }
 }
 
 /// Weights and sums of whole packs of candidates; then, lane by lane and without a branch, what is within reach is
@@ -116,7 +135,7 @@ void NeighbourList<Pack>::finish_row(Particles<Pack>& particles, std::size_t i, 
 
 template <class Pack>
 std::int64_t NeighbourList<Pack>::memory_bytes() const {
-  return rows_.memory_bytes() + bytes(dummies_);
+  return rows_.memory_bytes() + near_.memory_bytes() + bytes(dummies_);
 }
 
 template class NeighbourList<double>;

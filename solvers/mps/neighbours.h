@@ -23,6 +23,7 @@ struct Reach {
   double quantum_m = 0;
   double effective_radius_m = 0;
   double list_radius_m = 0;  ///< what is listed: a little more, so that the list outlives a small displacement
+  double near_radius_m = 0;  ///< of the near neighbours, no more than the effective radius
 };
 
 /// Row i: first neighbours that have a pressure (fluid, then walls), then dummies; values are weights omega_ij.
@@ -42,6 +43,9 @@ class NeighbourList {
     const Span s = rows_.span(i);
     return {s.begin, s.end - dummies_[i]};
   }
+  /// A copy of the rows with nothing but near neighbours that have a pressure: less to read for those who can do
+  /// without the others.
+  const SparseRows<Real>& near() const { return near_; }
   const std::int32_t* columns() const { return rows_.columns(); }
   const Real* weights() const { return rows_.values(); }
   std::int64_t memory_bytes() const;
@@ -53,12 +57,17 @@ class NeighbourList {
     /// Adds the neighbours of a particle that lie in one set.
     void add(const Particles<Pack>& particles, std::size_t self, const SearchSet& set);
     void make_room(std::size_t wanted);
+    /// Copies the near ones among the neighbours so far.
+    void pick_near(Real least_weight);
 
     Pack radius;        ///< effective radius   [quantum]
     Real list_radius2;  ///< square of what is listed   [quantum^2]
     std::size_t count = 0;
     std::vector<std::int32_t> column;
     std::vector<Real> weight;
+    std::size_t near = 0;
+    std::vector<std::int32_t> near_column;
+    std::vector<Real> near_weight;
     Pack weights{};       ///< sum of omega_ij
     Vec3<Pack> moment{};  ///< sum of omega_ij r_ij   [quantum]
   };
@@ -67,6 +76,7 @@ class NeighbourList {
                   typename SparseRows<Real>::Writer& writer, std::size_t dummies);
 
   SparseRows<Real> rows_;
+  SparseRows<Real> near_;
   std::vector<std::uint16_t> dummies_;  ///< at the end of each row
   std::vector<Collector> collectors_;
 };

@@ -21,6 +21,13 @@ bool is_at_surface(const Particles<Pack>& p, const OperatorConstants& c, std::si
          parameters.particle_distance_m;
 }
 
+template <class Real>
+Real sum_of_weights(const Real* weights, Span span) {
+  Real sum{};
+  for (std::uint32_t e = span.begin; e < span.end; ++e) sum += weights[e];
+  return sum;
+}
+
 }  // namespace
 
 template <class Pack>
@@ -38,9 +45,12 @@ void PressureEquation<Pack>::assemble(const Particles<Pack>& p, const NeighbourL
   const double rho_per_dt2 = parameters.density_kg_m3 / (c_.dt_s * c_.dt_s);
   const double compressibility = rho_per_dt2 * parameters.kappa_c_m_s2_kg * scale;
   const double source = parameters.kappa_r * rho_per_dt2 * scale;
+  // Near neighbours make up for those left out.
+  const auto near_factor = static_cast<Real>(1 / c_.lattice.near_share);
   const double n0 = c_.lattice.number_density;
   rows_.resize(p.size());
   diagonal_.resize(p.size());
+  near_diagonal_.resize(p.size());
   has_row_.assign(p.size(), 0);
   right_side_.resize(p.size());
   const auto n = static_cast<std::int64_t>(p.size());
@@ -48,15 +58,19 @@ void PressureEquation<Pack>::assemble(const Particles<Pack>& p, const NeighbourL
   for (auto k = static_cast<std::int64_t>(p.first_wall()); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const bool has_row = !is_at_surface(p, c_, i, list.all(i));
-    rows_[i] = list.all(i);
+    rows_[i] = list.with_pressure(i);
     has_row_[i] = has_row ? 1 : 0;
     right_side_[i] = has_row ? source * (static_cast<double>(p.number_density[i]) - n0) / n0 : 0.0;
-    auto diagonal = static_cast<Real>(compressibility);
-    const Span span = list.with_pressure(i);
-    for (std::uint32_t e = span.begin; e < span.end; ++e) diagonal += list.weights()[e];
-    diagonal_[i] = diagonal;
+    const auto c = static_cast<Real>(compressibility);
+    diagonal_[i] = c + sum_of_weights(list.weights(), rows_[i]);
+    near_diagonal_[i] = c + near_factor * sum_of_weights(list.near().values(), list.near().span(i));
   }
-  matrix_ = {rows_, list.columns(), list.weights(), diagonal_, has_row_, p.first_wall(), p.size()};
+  const SparseRows<Real>& near = list.near();
+  matrix_ = {{rows_, list.columns(), list.weights(), diagonal_},
+             {near.spans(), near.columns(), near.values(), near_diagonal_, near_factor},
+             has_row_,
+             p.first_wall(),
+             p.size()};
 }
 
 template <class Pack>
@@ -94,7 +108,7 @@ PressureReport PressureEquation<Pack>::solve(Particles<Pack>& p, const Neighbour
 template <class Pack>
 std::int64_t PressureEquation<Pack>::memory_bytes() const {
   return multigrid_.memory_bytes() + conjugate_gradients_.memory_bytes() + bytes(rows_) + bytes(diagonal_) +
-         bytes(has_row_) + bytes(right_side_);
+         bytes(near_diagonal_) + bytes(has_row_) + bytes(right_side_);
 }
 
 template class PressureEquation<double>;

@@ -56,7 +56,7 @@ class PressureEquation {
   ConjugateGradients<Real> conjugate_gradients_;
   PressureMatrix<Real> matrix_;
   std::vector<Span> rows_;
-  std::vector<Real> diagonal_;
+  std::vector<Real> diagonal_, near_diagonal_;
   std::vector<std::uint8_t> has_row_;
   std::vector<double> right_side_;
 };

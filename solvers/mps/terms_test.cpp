@@ -60,7 +60,7 @@ TYPED_TEST(MpsTerms, CollisionTurnsAnApproachRoundWithItsRestitution) {
 }
 
 TEST(MpsLattice, NumberDensityOfTheFullLattice) {
-  const LatticeConstants c = lattice_constants(0.02, 0.042);
+  const LatticeConstants c = lattice_constants(0.02, 0.042, 0.034);
   EXPECT_NEAR(c.number_density, 14.4186, 5e-5);
   // lambda0 is the weights' mean square distance; between the nearest neighbour's and the farthest's.
   EXPECT_GT(c.lambda_m2, 0.02 * 0.02);

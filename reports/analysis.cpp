@@ -208,6 +208,13 @@ ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
   return data;
 }
 
+std::optional<double> processor_time_s(const AnalysedRun& run) {
+  if (const auto cpu_s = run.record.number("cpu_time_s"); cpu_s && *cpu_s > 0) return cpu_s;
+  const auto wall_s = run.record.number("wall_time_s");
+  if (!wall_s || *wall_s <= 0) return std::nullopt;
+  return *wall_s * run.record.number("threads").value_or(1);
+}
+
 std::optional<double> mean_impulse_error(const ReportData& data, const AnalysedRun& run, const std::string& model) {
   double sum = 0;
   int count = 0;

@@ -67,6 +67,10 @@ ReportData analyse(const std::vector<std::filesystem::path>& run_directories);
 /// Mean of |deviation| of the impulses over the headline sensors; missing when one of them is. `model` empty: primary.
 std::optional<double> mean_impulse_error(const ReportData& data, const AnalysedRun& run, const std::string& model = "");
 
+/// What a run cost: its processor time, summed over threads; where that is not stated, wall time times threads. It
+/// depends less than wall time on what else a machine did.
+std::optional<double> processor_time_s(const AnalysedRun& run);
+
 /// Groups of runs for figures: by solver and walls, at most `limit` in each.
 struct RunGroup {
   std::string title;

@@ -34,6 +34,8 @@ std::vector<Picture> boundary_model_figures(const FigureMaker& maker);
 std::vector<Picture> alpha_figures(const FigureMaker& maker);
 std::vector<Picture> resolution_figures(const FigureMaker& maker);
 std::vector<Picture> cost_figures(const FigureMaker& maker);
+/// Energy of the fluid and its densest particle over time, one picture a group of runs.
+std::vector<Picture> conservation_figures(const FigureMaker& maker);
 
 /// The paper's figure 3: particles coloured by dimensionless pressure, one picture a run that kept snapshots.
 std::vector<Picture> snapshot_figures(const FigureMaker& maker);

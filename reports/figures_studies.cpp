@@ -84,7 +84,7 @@ std::vector<Picture> cost_figures(const FigureMaker& maker) {
   std::vector<Picture> pictures;
   if (!maker.enabled || maker.data.runs.size() < 2) return pictures;
   PlotPanel panel;
-  panel.x_label = "wall time of the run [min]";
+  panel.x_label = "processor time of the run [min]";
   panel.y_label = "mean deviation of impulses [%]";
   panel.log_x = true;
   panel.y_range = {0.0, std::nullopt};
@@ -97,7 +97,7 @@ std::vector<Picture> cost_figures(const FigureMaker& maker) {
     curve.points_only = true;
     for (const AnalysedRun* run : group.runs) {
       const auto error = mean_impulse_error(maker.data, *run);
-      const auto seconds = run->record.number("wall_time_s");
+      const auto seconds = processor_time_s(*run);
       if (!error || !seconds || *seconds <= 0) continue;
       curve.x.push_back(*seconds / 60);
       curve.y.push_back(100 * *error);
@@ -116,9 +116,9 @@ std::vector<Picture> cost_figures(const FigureMaker& maker) {
   figure.source = "primary readings";
   figure.panels = {panel};
   pictures.push_back(draw_picture(maker, figure,
-                                  "Error against cost: down and to the left is better. Wall times hold for the "
-                                  "machine and the threads named under Provenance.",
-                                  "Mean deviation of impulses against wall time, one point a run"));
+                                  "Error against cost: down and to the left is better. Processor times, summed over "
+                                  "threads, hold for the machine named under Provenance.",
+                                  "Mean deviation of impulses against processor time, one point a run"));
   return pictures;
 }
 

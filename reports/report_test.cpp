@@ -131,6 +131,29 @@ TEST(ReportTables, CostsOfTheTwoMethodsStandSideBySideAtEqualParticleDistance) {
   EXPECT_TRUE(cost_ratio_table(analyse({mps, wcsph})).rows.empty()) << "not at different ones";
 }
 
+TEST(ReportTables, EnergyAndCompressionOfTheFluid) {
+  const fs::path own = fresh("conservation");
+  const fs::path external = fresh("conservation_external");
+  synthetic::write_run(own, {});
+  synthetic::write_external_run(external, 1.0);
+  const Table table = conservation_table(analyse({own, external}));
+  EXPECT_NEAR(*cell(table, "R1", "energy_start_J").value, 1000, 1e-9);
+  EXPECT_NEAR(*cell(table, "R1", "energy_end_percent").value, 99, 1e-9);
+  EXPECT_NEAR(*cell(table, "R1", "energy_rise_percent").value, 1, 1e-9);
+  EXPECT_NEAR(*cell(table, "R1", "density_ratio_max_1").value, 1.3, 1e-9);
+  EXPECT_NEAR(*cell(table, "R1", "density_ratio_max_later_1").value, 1.01, 1e-9);
+  EXPECT_EQ(cell(table, "R2", "energy_start_J").text, "missing");
+}
+
+TEST(ReportTables, ProcessorTimeIsTheCostAndWallTimeStandsIn) {
+  AnalysedRun run;
+  EXPECT_FALSE(processor_time_s(run));
+  run.record.manifest = {{"wall_time_s", 10.0}, {"threads", 2}};
+  EXPECT_EQ(processor_time_s(run), 20.0);
+  run.record.manifest["cpu_time_s"] = 15.0;
+  EXPECT_EQ(processor_time_s(run), 15.0);
+}
+
 TEST(ReportTables, AShortRunIsScoredOverWhatItCoversInATableOfItsOwn) {
   const fs::path dir = fresh("short");
   MadeRun run;

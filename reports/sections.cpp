@@ -176,6 +176,13 @@ ReportSection acceptance_section(const ReportData& data) {
   return section;
 }
 
+ReportSection conservation_section(const FigureMaker& maker) {
+  ReportSection section{"conservation", "Energy and compression", {}};
+  append(section, conservation_figures(maker));
+  section.blocks.push_back(conservation_table(maker.data));
+  return section;
+}
+
 ReportSection cost_section(const FigureMaker& maker) {
   ReportSection section{"cost", "Error and cost", {}};
   append(section, cost_figures(maker));
@@ -228,6 +235,7 @@ std::vector<ReportSection> report_sections(const FigureMaker& maker, bool snapsh
   add_alpha_section(sections, maker);
   add_resolution_section(sections, maker);
   if (snapshots && maker.enabled) add_snapshot_section(sections, maker);
+  sections.push_back(conservation_section(maker));
   sections.push_back(acceptance_section(data));
   sections.push_back(cost_section(maker));
   sections.push_back(provenance_section(data));

@@ -104,6 +104,14 @@ void write_run(const std::filesystem::path& directory, const MadeRun& run) {
     add(probe_column(sensor, "kernel"), dynamic ? own : other);
     add(sensor.name + "_kernel_support_1", std::vector<double>(t.size(), 0.8));
   }
+  std::vector<double> kinetic(t.size(), 100);
+  std::vector<double> ratio(t.size(), 1.01);
+  if (!t.empty()) kinetic.back() = 90;
+  if (t.size() > 2) kinetic[t.size() / 2] = 110;  // a scheme that adds energy
+  if (t.size() > 1) ratio[1] = 1.3;               // before one second
+  add("kinetic_energy_J", std::move(kinetic));
+  add("potential_energy_J", std::vector<double>(t.size(), 900));
+  add("greatest_density_ratio_1", std::move(ratio));
   std::filesystem::create_directories(directory);
   write_probes(directory / "probes.csv", ProbeTable(directory / "probes.csv", names, t, columns));
   write_manifest(directory, manifest_of(run, c));

@@ -14,7 +14,9 @@ Table parameters_table(const ReportData& data);
 Table solver_parameters_table(const ReportData& data);
 /// Share of each phase in the time of a step, one row a run.
 Table phases_table(const ReportData& data);
-/// Wall time per simulated second of MPS and WCSPH runs of equal particle distance; no rows without such a pair.
+/// Energy, compression and losses of the fluid, one row a run.
+Table conservation_table(const ReportData& data);
+/// Processor time per simulated second of MPS and WCSPH runs of equal particle distance; no rows without such a pair.
 Table cost_ratio_table(const ReportData& data);
 /// Where each run's numbers come from: directory, commit, compiler, machine, hashes.
 Table provenance_table(const ReportData& data);

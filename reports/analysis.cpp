@@ -103,14 +103,30 @@ bool comes_before(const RunRecord& a, const RunRecord& b) {
   return order(a) < order(b);
 }
 
-void name_run(AnalysedRun& run, std::size_t index) {
+/// ", delta = 0.02": what this run has set otherwise than the case; alpha has its own place in a label.
+std::string changed_parameters(const RunRecord& run, const Case& c) {
+  const SolverOption* solver = c.find_solver(run.solver);
+  if (!run.own || solver == nullptr) return "";
+  std::map<std::string, double> defaults = solver->parameters;
+  for (const WallOption& walls : solver->walls)
+    if (walls.name == run.walls)
+      for (const auto& [name, value] : walls.parameters) defaults[name] = value;
+  defaults.erase("alpha");
+  std::string changed;
+  for (const auto& [name, value] : defaults)
+    if (const auto used = run.number("parameters." + name); used && *used != value)
+      changed += fmt::format(", {} = {}", name, shortest(*used));
+  return changed;
+}
+
+void name_run(AnalysedRun& run, std::size_t index, const Case& c) {
   const RunRecord& r = run.record;
   run.key = fmt::format("R{}", index + 1);
   run.group = solver_name(r) + (r.walls.empty() ? "" : ", " + r.walls + " walls");
   const std::string alpha = r.alpha() ? fmt::format("α = {}, ", shortest(*r.alpha())) : "";
-  run.short_label = fmt::format("{} {}l0 {:g} mm", run.key, alpha, 1000 * r.l0_m);
-  run.label = fmt::format("{} {}{}, {}l0 {:g} mm", run.key, solver_name(r), r.walls.empty() ? "" : " " + r.walls, alpha,
-                          1000 * r.l0_m);
+  const std::string rest = fmt::format("{}l0 {:g} mm{}", alpha, 1000 * r.l0_m, changed_parameters(r, c));
+  run.short_label = run.key + " " + rest;
+  run.label = fmt::format("{} {}{}, {}", run.key, solver_name(r), r.walls.empty() ? "" : " " + r.walls, rest);
   run.directory = shown_directory(r.path);
 }
 
@@ -198,7 +214,7 @@ ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
   for (RunRecord& record : records) {
     AnalysedRun run;
     run.record = std::move(record);
-    name_run(run, data.runs.size());
+    name_run(run, data.runs.size(), data.the_case);
     for (const CaseSensor& sensor : data.the_case.sensors)
       read_sensor(run, sensor, data.measured_series(sensor.name), data.window);
     run.acceptance = check_acceptance(data.the_case, run.record, data.measured ? &*data.measured : nullptr);

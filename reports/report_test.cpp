@@ -131,6 +131,18 @@ TEST(ReportTables, CostsOfTheTwoMethodsStandSideBySideAtEqualParticleDistance) {
   EXPECT_TRUE(cost_ratio_table(analyse({mps, wcsph})).rows.empty()) << "not at different ones";
 }
 
+TEST(ReportTables, LabelsSayWhatARunHasSetOtherwiseThanTheCase) {
+  const fs::path dir = fresh("changed");
+  synthetic::write_run(dir, {});
+  std::ifstream in(dir / "run.json");
+  auto manifest = nlohmann::json::parse(in);
+  EXPECT_EQ(analyse({dir}).runs[0].label, "R1 WCSPH extrapolated, α = 0.01, l0 20 mm");
+  manifest["parameters"] = {{"alpha", 0.01}, {"delta", 0.02}, {"wall_friction", 0.0}, {"courant", 0.2}};
+  std::ofstream(dir / "run.json") << manifest;
+  EXPECT_EQ(analyse({dir}).runs[0].label, "R1 WCSPH extrapolated, α = 0.01, l0 20 mm, delta = 0.02")
+      << "friction 0 is the walls' own default";
+}
+
 TEST(ReportTables, EnergyAndCompressionOfTheFluid) {
   const fs::path own = fresh("conservation");
   const fs::path external = fresh("conservation_external");

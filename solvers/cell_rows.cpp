@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solvers/lanes.h"
+#include "solvers/state_archive.h"
 
 namespace sluice {
 
@@ -97,6 +98,12 @@ void RowIndex::sort_row_into_slices(std::int32_t row, std::span<const double> x,
     scratch[s] = start[s];
   }
   for (std::size_t k = first; k < last; ++k) order_[static_cast<std::size_t>(scratch[slice(k)]++)] = by_row_[k];
+}
+
+void RowIndex::visit_state(StateArchive& archive, const std::string& name, std::size_t n) {
+  order_.resize(n);
+  archive.values(name + "_order", std::span(order_));
+  archive.values(name + "_start", std::span(start_));
 }
 
 RowIndex::Stencil RowIndex::stencil(const RowGeometry& g) {

@@ -6,12 +6,15 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "solvers/scene.h"
 #include "solvers/vec3.h"
 
 namespace sluice {
+
+class StateArchive;
 
 /// Consecutive particles begin .. end - 1 of the sorted order.
 struct Run {
@@ -92,6 +95,9 @@ class RowIndex {
   bool any_near(const Vec3d& point_m) const;
 
   std::int64_t memory_bytes() const;
+
+  /// Saves or restores the order of n sorted particles.
+  void visit_state(StateArchive& archive, const std::string& name, std::size_t n);
 
  private:
   std::size_t at(std::int32_t row, std::int32_t slice) const {

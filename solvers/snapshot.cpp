@@ -256,6 +256,16 @@ std::vector<SnapshotEntry> read_pvd(const fs::path& path) {
 
 SnapshotWriter::SnapshotWriter(fs::path run_directory) : run_directory_(std::move(run_directory)) {}
 
+SnapshotWriter::SnapshotWriter(fs::path run_directory, std::size_t kept) : run_directory_(std::move(run_directory)) {
+  if (kept == 0) return;
+  const fs::path collection = run_directory_ / "snapshots.pvd";
+  entries_ = read_pvd(collection);
+  if (entries_.size() < kept)
+    fail(collection, fmt::format("holds {} snapshots where {} were written", entries_.size(), kept));
+  entries_.resize(kept);
+  for (SnapshotEntry& entry : entries_) entry.file = fs::path("snapshots") / entry.file.filename();
+}
+
 fs::path SnapshotWriter::write(const ParticleSnapshot& snapshot) {
   std::error_code error;
   fs::create_directories(run_directory_ / "snapshots", error);

@@ -33,6 +33,9 @@ std::vector<SnapshotEntry> read_pvd(const std::filesystem::path& path);
 class SnapshotWriter {
  public:
   explicit SnapshotWriter(std::filesystem::path run_directory);
+  /// Goes on behind the first `kept` snapshots of the collection that is there. Throws as read_pvd(), or when it holds
+  /// fewer.
+  SnapshotWriter(std::filesystem::path run_directory, std::size_t kept);
 
   /// Writes one snapshot and the collection. Returns the snapshot's path. Throws as write_vtp().
   std::filesystem::path write(const ParticleSnapshot& snapshot);

@@ -43,6 +43,8 @@ struct ParticleSnapshot {
 /// Seconds of wall time by the name of the phase.
 using PhaseTimes = std::map<std::string, double>;
 
+class StateArchive;
+
 class Solver {
  public:
   virtual ~Solver() = default;
@@ -76,6 +78,11 @@ class Solver {
   virtual std::string step_note() const { return {}; }
 
   virtual ParticleSnapshot snapshot() const = 0;
+
+  /// Saves what the next steps depend on, or restores it into a solver of the same scene and parameters: that one then
+  /// goes on bit for bit like the one that was saved, on any number of threads. Call it between two steps.
+  /// Restoring throws std::runtime_error when the archive does not fit; the solver is then of no use.
+  virtual void visit_state(StateArchive& archive) = 0;
 };
 
 }  // namespace sluice

@@ -8,6 +8,7 @@
 
 #include "solvers/scene.h"
 #include "solvers/solver.h"
+#include "solvers/state_archive.h"
 
 namespace sluice {
 
@@ -39,6 +40,10 @@ class FakeSolver : public Solver {
   PressureReading wall_pressure(const Vec3d&) const override { return {2 * pressure_scale_ * time_s_, 1.0}; }
   double volume_fraction(const Vec3d& p) const override { return p.z < 0.2 && p.z > 0 ? 1.0 : 0.0; }
   double smoothing_length_m() const override { return 1.5 * scene_.description.particle_distance_m; }
+  void visit_state(StateArchive& archive) override {
+    archive.value("time_s", time_s_);
+    archive.value("steps", steps_);
+  }
   FluidTotals totals() const override { return {2 * time_s_, 5, 1.01}; }
   std::string step_note() const override { return "note of step " + std::to_string(steps_); }
   ParticleSnapshot snapshot() const override {

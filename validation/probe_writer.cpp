@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cmath>
+#include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <system_error>
@@ -16,19 +17,47 @@ namespace {
 constexpr std::size_t buffer_limit_bytes = 1 << 20;
 constexpr std::chrono::seconds flush_interval{1};
 
+std::string header_line(const std::vector<std::string>& names) {
+  std::string line = "t_s";
+  for (const auto& name : names) line += "," + name;
+  return line;
+}
+
+std::FILE* open_for_writing(const std::filesystem::path& path, const char* mode) {
+  std::FILE* file = std::fopen(path.c_str(), mode);
+  if (file == nullptr) {
+    throw std::runtime_error(fmt::format("{}: cannot be written ({}); check that its folder exists and is writable",
+                                         path.string(), std::generic_category().message(errno)));
+  }
+  // Rows are gathered in a buffer, so that each write to the file ends with a whole row.
+  std::setvbuf(file, nullptr, _IONBF, 0);
+  return file;
+}
+
+/// Cuts the file back to where it was.
+void cut_back(const std::filesystem::path& path, const std::string& header, const ProbeWriter::Position& position) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  std::string first_line;
+  std::getline(std::ifstream(path) >> std::ws, first_line);
+  if (error || size < position.bytes || first_line != header) {
+    throw std::runtime_error(fmt::format(
+        "{}: cannot be continued: it should hold {} bytes under the columns of this run, but {} (start the run anew "
+        "with `sluice run ... --force`)",
+        path.string(), position.bytes,
+        error                   ? "cannot be read"
+        : size < position.bytes ? fmt::format("holds {}", size)
+                                : "has other columns"));
+  }
+  std::filesystem::resize_file(path, position.bytes);
+}
+
 }  // namespace
 
 ProbeWriter::ProbeWriter(std::filesystem::path path, std::vector<std::string> names)
     : path_(std::move(path)), names_(std::move(names)), last_flush_(std::chrono::steady_clock::now()) {
-  file_ = std::fopen(path_.c_str(), "wb");
-  if (!file_) {
-    throw std::runtime_error(fmt::format("{}: cannot be written ({}); check that its folder exists and is writable",
-                                         path_.string(), std::generic_category().message(errno)));
-  }
-  // Rows are gathered in buffer_, so that each write to the file ends with a whole row.
-  std::setvbuf(file_, nullptr, _IONBF, 0);
-  buffer_ = "t_s";
-  for (const auto& name : names_) buffer_ += "," + name;
+  file_ = open_for_writing(path_, "wb");
+  buffer_ = header_line(names_);
   buffer_ += '\n';
   try {
     flush();
@@ -36,6 +65,17 @@ ProbeWriter::ProbeWriter(std::filesystem::path path, std::vector<std::string> na
     if (file_) std::fclose(std::exchange(file_, nullptr));
     throw;
   }
+}
+
+ProbeWriter::ProbeWriter(std::filesystem::path path, std::vector<std::string> names, const Position& from)
+    : path_(std::move(path)),
+      names_(std::move(names)),
+      bytes_on_disk_(from.bytes),
+      last_flush_(std::chrono::steady_clock::now()),
+      last_t_s_(from.last_t_s),
+      rows_(from.rows) {
+  cut_back(path_, header_line(names_), from);
+  file_ = open_for_writing(path_, "ab");
 }
 
 ProbeWriter::~ProbeWriter() {

@@ -20,10 +20,21 @@ struct RunOptions {
   std::filesystem::path out;
   bool force = false;                                  ///< replace a finished run that stands in `out`
   std::FILE* progress = nullptr;                       ///< plan and progress go here; nullptr: nowhere
+  double checkpoint_every_s = 600;                     ///< wall time; 0: only when the run is interrupted
   bool log_steps = false;                              ///< log.txt has a line for every step
   bool terminal = false;                               ///< `progress` is a terminal
   SolverFactory factory;                               ///< empty: make_solver()
   std::optional<std::int64_t> available_memory_bytes;  ///< none: ask the system
+};
+
+/// Choices for going on with a run; all else stands in its checkpoint.
+struct ResumeOptions {
+  int threads = 0;  ///< 0: as many as before
+  std::FILE* progress = nullptr;
+  bool terminal = false;
+  double checkpoint_every_s = 600;
+  SolverFactory factory;
+  std::optional<std::int64_t> available_memory_bytes;
 };
 
 struct RunOutcome {
@@ -37,5 +48,10 @@ struct RunOutcome {
 /// Throws std::runtime_error when the run is refused before anything is written: not enough memory, or a directory that
 /// holds a run already (the message names the remedy).
 RunOutcome run_case(const Case& c, const RunSettings& settings, const RunOptions& options);
+
+/// Goes on with a run from its checkpoint, as if it had never stopped: probes.csv, snapshots and manifest come out as
+/// those of a run in one go, bit for bit where they hold results. Throws std::runtime_error when there is nothing to go
+/// on with, the checkpoint cannot be read, or the case has changed since; nothing is then touched.
+RunOutcome resume_run(const std::filesystem::path& directory, const ResumeOptions& options);
 
 }  // namespace sluice

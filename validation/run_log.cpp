@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "validation/checkpoint.h"
 #include "validation/manifest.h"
 
 namespace sluice {
@@ -23,7 +24,8 @@ std::string status_of(const fs::path& manifest_file) {
 }
 
 void remove_old_run(const fs::path& directory) {
-  for (const char* name : {"run.json", "probes.csv", "log.txt", "snapshots.pvd"}) fs::remove(directory / name);
+  for (const char* name : {"run.json", "probes.csv", "log.txt", "snapshots.pvd", checkpoint_file})
+    fs::remove(directory / name);
   if (!fs::is_directory(directory / "snapshots")) return;
   for (const auto& entry : fs::directory_iterator(directory / "snapshots"))
     if (entry.path().extension() == ".vtp") fs::remove(entry.path());
@@ -36,6 +38,10 @@ void prepare_run_directory(const fs::path& directory, bool force) {
     fs::create_directories(directory);
     if (!fs::exists(directory / "run.json")) return;
     const std::string status = status_of(directory / "run.json");
+    if (!force && fs::exists(directory / checkpoint_file))
+      throw std::runtime_error(
+          fmt::format("{}: holds a run that can go on, status {} (`sluice resume {}` does that; --force replaces it)",
+                      directory.string(), status, directory.string()));
     if (!force && status != "failed" && status != "interrupted")
       throw std::runtime_error(
           fmt::format("{}: holds a run already, status {} (use --force to replace it, or choose another --out)",
@@ -47,7 +53,7 @@ void prepare_run_directory(const fs::path& directory, bool force) {
   }
 }
 
-RunLog::RunLog(const fs::path& file) : file_(std::fopen(file.c_str(), "w")) {}
+RunLog::RunLog(const fs::path& file, bool append) : file_(std::fopen(file.c_str(), append ? "a" : "w")) {}
 
 RunLog::~RunLog() {
   if (file_ != nullptr) std::fclose(file_);

@@ -7,14 +7,16 @@
 
 namespace sluice {
 
-/// Makes the directory. One that holds a run already is refused unless that run failed or was interrupted, or `force`
-/// is given; its files (and no others) are then removed. Throws std::runtime_error naming the directory and the remedy.
+/// Makes the directory. One that holds a run already is refused unless that run failed or was interrupted and left
+/// no checkpoint, or `force` is given; its files (and no others) are then removed. Throws std::runtime_error naming the
+/// directory and the remedy.
 void prepare_run_directory(const std::filesystem::path& directory, bool force);
 
 /// log.txt: lines with the time of day (UTC). A log that cannot be written is no reason to stop a run.
 class RunLog {
  public:
-  explicit RunLog(const std::filesystem::path& file);
+  /// `append`: behind what the file holds already.
+  explicit RunLog(const std::filesystem::path& file, bool append = false);
   ~RunLog();
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;

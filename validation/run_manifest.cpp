@@ -99,7 +99,9 @@ void update_manifest(json& m, const Solver& solver, const RunTally& tally) {
   // Whole time steps: sums, sort and stepping, and the sensors with them.
   const double stepping_s = tally.stepping_s + tally.sensors_s;
   m["particle_steps_per_s"] = stepping_s > 0 ? tally.particle_steps / stepping_s : 0.0;
-  m["phases"] = solver.phases();
+  PhaseTimes phases = tally.earlier_phases;
+  for (const auto& [phase, time_s] : solver.phases()) phases[phase] += time_s;
+  m["phases"] = phases;
   m["phases"]["sensors"] = tally.sensors_s;
   m["phases"]["output"] = tally.output_s;
   m["peak_memory_bytes"] = peak_memory_bytes();

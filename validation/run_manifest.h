@@ -25,6 +25,7 @@ struct RunTally {
   double particle_steps = 0;  ///< fluid particles, summed over the steps
   double dt_min_s = std::numeric_limits<double>::infinity();
   double dt_max_s = 0;
+  PhaseTimes earlier_phases;  ///< of a run that was resumed: what its solver's phases took before
 };
 
 /// Everything that is known before the first step, status "running".

@@ -218,11 +218,22 @@ TEST_F(RunTest, AFinishedRunIsNotReplacedUnlessForced) {
   EXPECT_EQ(run().status, "finished");
 }
 
-TEST_F(RunTest, AnInterruptedRunIsReplaced) {
+TEST_F(RunTest, AnInterruptedRunIsNotReplacedUnlessForced) {
   trouble = [](FakeSolver& solver) {
     if (solver.steps() == 5) std::raise(SIGINT);
   };
   EXPECT_EQ(run().status, "interrupted");
+  trouble = nullptr;
+  EXPECT_THROW(run(), std::runtime_error) << "it can go on";
+  options.force = true;
+  EXPECT_EQ(run().status, "finished");
+}
+
+TEST_F(RunTest, AFailedRunIsReplaced) {
+  trouble = [](FakeSolver& solver) {
+    if (solver.steps() == 5) throw std::runtime_error("out of luck");
+  };
+  EXPECT_EQ(run().status, "failed");
   trouble = nullptr;
   EXPECT_EQ(run().status, "finished");
 }

@@ -69,6 +69,7 @@ class Particles : public Solver {
   std::map<std::string, double> facts() const override { return {}; }
   FluidTotals totals() const override { return {1, 2, 1.25}; }
   ParticleSnapshot snapshot() const override { return {}; }
+  void visit_state(StateArchive&) override {}
 };
 
 ProbeLine line_from(double bed_z_m) {

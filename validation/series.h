@@ -72,8 +72,18 @@ void write_probes(const std::filesystem::path& path, const ProbeTable& table);
 /// that a run that is killed loses at most its last second and never leaves half a row.
 class ProbeWriter {
  public:
+  /// How far a file had come.
+  struct Position {
+    std::uintmax_t bytes = 0;
+    std::int64_t rows = 0;
+    double last_t_s = 0;
+  };
+
   /// `names` are full headers without "t_s". Creates or overwrites the file; throws std::runtime_error if it cannot.
   ProbeWriter(std::filesystem::path path, std::vector<std::string> names);
+  /// Goes on with a file from where it once was: what stands behind is cut off. Throws std::runtime_error when the file
+  /// is missing, shorter than that, or has other columns.
+  ProbeWriter(std::filesystem::path path, std::vector<std::string> names, const Position& from);
   ~ProbeWriter();
   ProbeWriter(const ProbeWriter&) = delete;
   ProbeWriter& operator=(const ProbeWriter&) = delete;
@@ -83,6 +93,8 @@ class ProbeWriter {
   /// full.
   void append(double t_s, std::span<const double> values);
   void flush();
+  /// After a flush: where the file stands.
+  Position position() const { return {bytes_on_disk_, rows_, last_t_s_}; }
   /// Flushes and closes; the destructor does the same but cannot report an error.
   void close();
   std::int64_t rows() const { return rows_; }

@@ -129,8 +129,8 @@ template <class Pack>
 std::int64_t MpsSolver<Pack>::memory_bytes() const {
   return particles_.memory_bytes() + fluid_index_.memory_bytes() + wall_index_.memory_bytes() +
          dummy_index_.memory_bytes() + wall_proximity_.memory_bytes() + dummy_proximity_.memory_bytes() +
-         list_.memory_bytes() + pressure_equation_.memory_bytes() + bytes(next_velocity_) + bytes(wall_normals_) +
-         bytes(leaves_);
+         list_.memory_bytes() + pressure_equation_.memory_bytes() + bytes(next_velocity_) + bytes(listed_) +
+         bytes(wall_normals_) + bytes(leaves_);
 }
 
 template <class Pack>
@@ -142,7 +142,7 @@ std::map<std::string, double> MpsSolver<Pack>::facts() const {
           {"n0", constants_.lattice.number_density},
           {"lambda0_m2", constants_.lattice.lambda_m2},
           {"iterations_mean", per(iterations_, steps_)},
-          {"iterations_max", most_iterations_},
+          {"iterations_max", static_cast<double>(most_iterations_)},
           {"unknowns", static_cast<double>(unknowns_)},
           {"multigrid_levels", static_cast<double>(pressure_equation_.levels())},
           {"number_density_max_over_n0", greatest_density_ratio_},

@@ -46,6 +46,14 @@ void MpsSolver<Pack>::list_neighbours() {
   const LostParticles left = find_leaving(tank_, particles_.position, first, leaves_, *this, threads_);
   lost_.over_top += left.over_top;
   lost_.through_walls += left.through_walls;
+  list_rows();
+  travel_m_ = 0;
+}
+
+/// Sorts the fluid that has not left, and lists the neighbours.
+template <class Pack>
+void MpsSolver<Pack>::list_rows() {
+  const std::size_t first = particles_.first_fluid();
   const auto fluid = [&](const std::vector<double>& v) { return std::span<const double>(v).subspan(first); };
   const auto& x = particles_.position;
   fluid_index_.sort(fluid(x.x), fluid(x.y), fluid(x.z), leaves_, threads_);
@@ -54,7 +62,12 @@ void MpsSolver<Pack>::list_neighbours() {
   particles_.encode_positions(tank_.domain(), first, threads_);
   list_.list(particles_, {fluid_index_, first}, {wall_index_, particles_.first_wall(), &wall_proximity_},
              {dummy_index_, 0, &dummy_proximity_}, reach_, threads_);
-  travel_m_ = 0;
+  const auto listed = [&](const std::vector<double>& from, std::vector<double>& to) {
+    to.assign(from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
+  };
+  listed(x.x, listed_.x);
+  listed(x.y, listed_.y);
+  listed(x.z, listed_.z);
 }
 
 template <class Pack>
@@ -69,7 +82,7 @@ template <class Pack>
 void MpsSolver<Pack>::solve_pressures() {
   const PressureReport report = pressure_equation_.solve(particles_, list_);
   iterations_ += report.convergence.iterations;
-  most_iterations_ = std::max(most_iterations_, report.convergence.iterations);
+  most_iterations_ = std::max<std::int64_t>(most_iterations_, report.convergence.iterations);
   unknowns_ = report.unknowns;
   negative_pressures_ += report.set_to_zero;
 }

@@ -46,6 +46,7 @@ class MpsSolver final : public Solver {
   /// Unknowns, iterations, and the relative residual before the first and after each.
   std::string step_note() const override;
   ParticleSnapshot snapshot() const override;
+  void visit_state(StateArchive& archive) override;
 
   const Particles<Pack>& particles() const { return particles_; }
   const NeighbourList<Pack>& neighbours() const { return list_; }
@@ -63,9 +64,12 @@ class MpsSolver final : public Solver {
   void collide_pairs();
   void move();
   void list_neighbours();
+  void list_rows();
   void solve_pressures();
   void correct_velocities();
 
+  void visit_counts(StateArchive& archive);
+  void list_as_before();
   double greatest_number_density() const;  ///< of the fluid, at the last solution
 
   int threads_;
@@ -79,6 +83,7 @@ class MpsSolver final : public Solver {
   Proximity wall_proximity_;
   Proximity dummy_proximity_;
   VectorField<double> wall_normals_;
+  VectorField<double> listed_;  ///< where fluid particles were when neighbours were last listed   [m]
   NeighbourList<Pack> list_;
   PressureEquation<Pack> pressure_equation_;
   VectorField<typename Lanes<Pack>::Real> next_velocity_;
@@ -90,7 +95,7 @@ class MpsSolver final : public Solver {
   PhaseClock clock_;
   // Over the whole run.
   std::int64_t iterations_ = 0;
-  int most_iterations_ = 0;
+  std::int64_t most_iterations_ = 0;
   std::int64_t unknowns_ = 0;
   std::int64_t collisions_ = 0;
   std::int64_t plain_gradients_ = 0;

@@ -38,6 +38,7 @@ class WcsphSolver final : public Solver {
   double smoothing_length_m() const override { return parameters_.smoothing_length_m(); }
   FluidTotals totals() const override;
   ParticleSnapshot snapshot() const override;
+  void visit_state(StateArchive& archive) override;
 
   const Particles<Pack>& fluid() const { return fluid_; }
   const Particles<Pack>& walls() const { return walls_; }

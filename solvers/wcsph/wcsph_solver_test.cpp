@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "solvers/memory_archive.h"
 #include "solvers/wcsph/test_tank.h"
 
 namespace sluice::wcsph {
@@ -161,6 +162,31 @@ TEST_P(Walls, ResultsAreBitwiseEqualForAnyNumberOfThreads) {
     EXPECT_EQ(one.fluid().velocity.x, other->fluid().velocity.x);
     EXPECT_EQ(one.fluid().density, other->fluid().density);
     EXPECT_EQ(one.walls().density, other->walls().density);
+  }
+}
+
+/// At several steps, since some sort and most do not, and some restart the Verlet scheme.
+TEST_P(Walls, GoesOnFromASavedStateBitForBit) {
+  const Scene scene = small_dam_break(GetParam());
+  const Parameters p = small_parameters(scene, GetParam());
+  WcsphSolver<FloatPack> straight(scene, p, 2);
+  while (straight.steps() < 330) straight.step();
+  for (const int saved_after : {260, 279, 287, 301}) {
+    WcsphSolver<FloatPack> first(scene, p, 2);
+    while (first.steps() < saved_after) first.step();
+    MemoryArchive archive;
+    first.visit_state(archive);
+    archive.rewind();
+    WcsphSolver<FloatPack> second(scene, p, 1);
+    second.visit_state(archive);
+    EXPECT_EQ(second.wall_pressure({0, 0.1, 0.02}).pressure_Pa, first.wall_pressure({0, 0.1, 0.02}).pressure_Pa);
+    EXPECT_EQ(second.volume_fraction({0.1, 0.1, 0.1}), first.volume_fraction({0.1, 0.1, 0.1}));
+    while (second.steps() < 330) second.step();
+    ASSERT_EQ(straight.time_s(), second.time_s()) << saved_after;
+    EXPECT_EQ(straight.fluid().position.x, second.fluid().position.x) << saved_after;
+    EXPECT_EQ(straight.fluid().density, second.fluid().density) << saved_after;
+    EXPECT_EQ(straight.walls().density, second.walls().density) << saved_after;
+    EXPECT_EQ(straight.facts(), second.facts()) << saved_after;
   }
 }
 

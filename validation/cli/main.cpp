@@ -23,12 +23,14 @@ const char* const examples =
     "Examples:\n"
     "  sluice validate --tier quick           run, compare, report, and judge by the acceptance bands\n"
     "  sluice run kleefsman --l0 0.02         one run, into runs/\n"
+    "  sluice resume runs/DIRECTORY           go on with a run that was interrupted or killed\n"
     "  sluice report runs/*                   compare runs that are there\n"
     "`sluice COMMAND --help` tells more about a command.";
 
 void add_commands(CLI::App& app, int& exit_code) {
   sluice::cli::add_list(app, exit_code);
   sluice::cli::add_run(app, exit_code);
+  sluice::cli::add_resume(app, exit_code);
   sluice::cli::add_validate(app, exit_code);
   sluice::cli::add_report(app, exit_code);
   sluice::cli::add_data(app, exit_code);

@@ -25,12 +25,14 @@ struct Arguments {
   bool dry_run = false;
   bool force = false;
   bool log_steps = false;
+  double checkpoint_every_s = RunOptions().checkpoint_every_s;
 };
 
 const char* const footer =
     "key=value overrides a parameter: t_end_s, output_rate_Hz, or one of the solver's (alpha, delta, courant,\n"
     "speed_of_sound_m_s, ...; an unknown key lists them).\n"
-    "Ctrl-C ends a run cleanly and keeps what was computed; a second one ends it at once.\n\n"
+    "Ctrl-C ends a run cleanly and keeps what was computed; a second one ends it at once. `sluice resume DIR` goes "
+    "on.\n\n"
     "Examples:\n"
     "  sluice run kleefsman --solver wcsph --l0 0.02 --alpha 0.01\n"
     "  sluice run kleefsman --l0 0.03 --walls dynamic --snapshots --out runs/dynamic\n"
@@ -55,6 +57,7 @@ int run(const CLI::App& command, Arguments& arguments) {
   RunOptions options;
   options.out = arguments.out.empty() ? default_run_directory(c, settings) : std::filesystem::path(arguments.out);
   options.force = arguments.force;
+  options.checkpoint_every_s = arguments.checkpoint_every_s;
   options.log_steps = arguments.log_steps;
   if (arguments.dry_run) {
     const Plan plan = plan_run(c, settings);
@@ -89,6 +92,11 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_flag("--snapshots", arguments->request.snapshots, "Write ParaView snapshots at the case's times");
   command->add_option("--snapshot-every", arguments->request.snapshot_every_s, "Write snapshots at this interval [s]")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--checkpoint-every", arguments->checkpoint_every_s,
+                   "Seconds between checkpoints; 0: only when interrupted")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->add_flag("--log-steps", arguments->log_steps,
                     "A line in log.txt for every step; with MPS, the residuals of its pressure equation");
   command->add_flag("--dry-run", arguments->dry_run, "Print particles, memory and expected time, and stop");

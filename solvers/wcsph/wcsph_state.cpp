@@ -1,0 +1,44 @@
+// What a WCSPH run must remember between two steps.
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "solvers/state_archive.h"
+#include "solvers/wcsph/wcsph_solver.h"
+
+namespace sluice::wcsph {
+
+template <class Pack>
+void WcsphSolver<Pack>::visit_state(StateArchive& archive) {
+  archive.value("time_s", time_s_);
+  archive.value("steps", steps_);
+  auto n = static_cast<std::int64_t>(fluid_.n);
+  archive.value("fluid_particles", n);
+  if (n < 0 || static_cast<std::size_t>(n) > fluid_.n)
+    throw std::runtime_error(fmt::format("{} fluid particles where the scene has {}", n, fluid_.n));
+  fluid_.resize(static_cast<std::size_t>(n));
+  archive.values("position_m", fluid_.position, 0, fluid_.n);
+  archive.values("velocity_m_s", fluid_.velocity, 0, fluid_.n);
+  archive.values("velocity_previous_m_s", fluid_.velocity_previous, 0, fluid_.n);
+  archive.values("density_deviation_kg_m3", std::span(fluid_.density).first(fluid_.n));
+  archive.values("density_deviation_previous_kg_m3", std::span(fluid_.density_previous).first(fluid_.n));
+  archive.values("id", std::span(fluid_.id).first(fluid_.n));
+  archive.values("wall_density_deviation_kg_m3", std::span(walls_.density).first(walls_.n));
+  archive.values("wall_density_deviation_previous_kg_m3", std::span(walls_.density_previous).first(walls_.n));
+  archive.value("travel_m", travel_m_);
+  fluid_index_.visit_state(archive, "sort", fluid_.n);
+  archive.value("sorts", sorts_);
+  archive.value("held_at_walls", held_);
+  archive.value("lost_over_top", lost_.over_top);
+  archive.value("lost_through_walls", lost_.through_walls);
+  if (archive.restoring()) {
+    find_wet_walls();
+    update_fluid_state();
+    update_walls();
+  }
+}
+
+template class WcsphSolver<FloatPack>;
+template class WcsphSolver<double>;
+
+}  // namespace sluice::wcsph

@@ -1,0 +1,232 @@
+#include "validation/checkpoint.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+#include "solvers/state_archive.h"
+#include "validation/fake_solver.h"
+#include "validation/run.h"
+#include "validation/run_directory.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string contents(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// A solver with something of every kind to remember.
+class Rememberer : public FakeSolver {
+ public:
+  explicit Rememberer(std::size_t n = 1000) : FakeSolver(Scene{}, 1e-3), doubles(n), floats(n), integers(n) {}
+  void visit_state(StateArchive& archive) override {
+    FakeSolver::visit_state(archive);
+    archive.values("doubles", std::span(doubles));
+    archive.values("floats", std::span(floats));
+    archive.values("integers", std::span(integers));
+  }
+  std::vector<double> doubles;
+  std::vector<float> floats;
+  std::vector<std::int32_t> integers;
+};
+
+class CheckpointTest : public testing::Test {
+ protected:
+  CheckpointTest() {
+    directory = fs::temp_directory_path() /
+                (std::string("sluice-checkpoint-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(directory);
+    fs::create_directories(directory);
+    file = directory / checkpoint_file;
+  }
+  ~CheckpointTest() override { fs::remove_all(directory); }
+
+  std::string refusal() const {
+    try {
+      Rememberer solver;
+      read_checkpoint_header(file);
+      restore_checkpoint(file, solver);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  fs::path directory;
+  fs::path file;
+};
+
+TEST_F(CheckpointTest, GivesBackWhatItWasGiven) {
+  Rememberer saved;
+  for (std::size_t i = 0; i < 1000; ++i) {
+    saved.doubles[i] = 1.0 / static_cast<double>(i + 3);
+    saved.floats[i] = 1.0F / static_cast<float>(i + 3);
+    saved.integers[i] = -static_cast<std::int32_t>(i);
+  }
+  for (int k = 0; k < 7; ++k) saved.step();
+  write_checkpoint(file, {{"words", "über"}}, saved);
+  EXPECT_FALSE(fs::exists(file.string() + ".part"));
+  Rememberer restored;
+  EXPECT_EQ(read_checkpoint_header(file).at("words"), "über");
+  restore_checkpoint(file, restored);
+  EXPECT_EQ(restored.time_s(), saved.time_s());
+  EXPECT_EQ(restored.steps(), 7);
+  EXPECT_EQ(restored.doubles, saved.doubles);
+  EXPECT_EQ(restored.floats, saved.floats);
+  EXPECT_EQ(restored.integers, saved.integers);
+}
+
+TEST_F(CheckpointTest, OfNoParticlesToo) {
+  Rememberer none(0);
+  write_checkpoint(file, {}, none);
+  restore_checkpoint(file, none);
+  EXPECT_THAT(refusal(), HasSubstr("doubles has 0 values where 1000 belong"));
+}
+
+TEST_F(CheckpointTest, RefusesWhatIsNone) {
+  EXPECT_THAT(refusal(), AllOf(HasSubstr(file.string()), HasSubstr("no such file")));
+  std::ofstream(file) << "t_s,P1_Pa\n0,1\n";
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("no HDF5 file"), HasSubstr("--force")));
+  H5Fclose(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  EXPECT_THAT(refusal(), HasSubstr("no checkpoint"));
+}
+
+TEST_F(CheckpointTest, RefusesAFileCutShortAnywhere) {
+  Rememberer solver;
+  write_checkpoint(file, {{"a", 1}}, solver);
+  const std::string whole = contents(file);
+  for (std::size_t part = 0; part < 20; ++part) {
+    std::ofstream(file, std::ios::binary) << whole.substr(0, whole.size() * part / 20);
+    EXPECT_THAT(refusal(), AllOf(HasSubstr(file.string()), HasSubstr("--force"))) << part;
+  }
+}
+
+TEST_F(CheckpointTest, RefusesADamagedFile) {
+  Rememberer solver;
+  solver.doubles.assign(1000, 1.25);
+  write_checkpoint(file, {{"a", 1}}, solver);
+  std::string bytes = contents(file);
+  const double value = 1.25;
+  const std::string pattern(reinterpret_cast<const char*>(&value), sizeof value);
+  const auto at = bytes.find(pattern + pattern);
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 3] ^= 1;
+  std::ofstream(file, std::ios::binary) << bytes;
+  EXPECT_THAT(refusal(), HasSubstr("damaged"));
+}
+
+TEST_F(CheckpointTest, AFailedWriteLeavesTheOlderOne) {
+  Rememberer solver;
+  write_checkpoint(file, {{"a", 1}}, solver);
+  const std::string older = contents(file);
+  fs::create_symlink("/dev/full", file.string() + ".part");
+  EXPECT_THROW(write_checkpoint(file, {{"a", 2}}, solver), std::runtime_error);
+  EXPECT_EQ(contents(file), older);
+}
+
+// A run that is interrupted and resumed, with the fake solver.
+class ResumeTest : public CheckpointTest {
+ protected:
+  ResumeTest() : c(load_case("kleefsman")) {
+    request.l0_m = 0.05;
+    request.threads = 1;
+    request.snapshot_every_s = 0.01;
+    request.overrides = {{"t_end_s", 0.05}};
+    factory = [this](const Case&, const Scene& scene, const RunSettings&) {
+      auto solver = std::make_unique<FakeSolver>(scene, 4e-4);
+      solver->before_step = trouble;
+      return solver;
+    };
+  }
+
+  RunOutcome run(const fs::path& out) {
+    RunOptions options;
+    options.out = out;
+    options.factory = factory;
+    return run_case(c, resolve_settings(c, request), options);
+  }
+  RunOutcome resume(const fs::path& out) {
+    ResumeOptions options;
+    options.factory = factory;
+    return resume_run(out, options);
+  }
+
+  Case c;
+  RunRequest request;
+  SolverFactory factory;
+  std::function<void(FakeSolver&)> trouble;
+};
+
+TEST_F(ResumeTest, ComesOutAsInOneGo) {
+  EXPECT_EQ(run(directory / "whole").status, "finished");
+  EXPECT_FALSE(fs::exists(directory / "whole" / checkpoint_file)) << "a finished run needs none";
+  const fs::path parts = directory / "parts";
+  std::int64_t stop_at = 30;
+  trouble = [&](FakeSolver& solver) {
+    if (solver.steps() == stop_at) std::raise(SIGTERM);
+  };
+  EXPECT_EQ(run(parts).status, "interrupted");
+  EXPECT_TRUE(fs::exists(parts / checkpoint_file));
+  stop_at = 77;
+  EXPECT_EQ(resume(parts).exit_code, 128 + SIGTERM);
+  stop_at = -1;
+  EXPECT_EQ(resume(parts).status, "finished");
+  EXPECT_EQ(contents(parts / "probes.csv"), contents(directory / "whole" / "probes.csv"));
+  EXPECT_EQ(contents(parts / "snapshots.pvd"), contents(directory / "whole" / "snapshots.pvd"));
+  const RunRecord record = read_run(parts);
+  EXPECT_EQ(record.number("resumed"), 2);
+  EXPECT_EQ(record.number("steps"), read_run(directory / "whole").number("steps"));
+  EXPECT_EQ(record.number("particle_steps_per_s").has_value(), true);
+  EXPECT_NEAR(*record.number("phases.sums"), 1.5, 1e-9) << "half a second in each of three parts";
+  EXPECT_EQ(record.snapshots().size(), 6U);
+}
+
+TEST_F(ResumeTest, RowsBehindTheCheckpointAreCutOff) {
+  EXPECT_EQ(run(directory / "whole").status, "finished");
+  const fs::path parts = directory / "parts";
+  trouble = [](FakeSolver& solver) {
+    if (solver.steps() == 60) std::raise(SIGINT);
+  };
+  run(parts);
+  trouble = nullptr;
+  std::ofstream(parts / "probes.csv", std::ios::app) << "0.03,1,2,3\n0.0";  // as a killed run leaves it
+  EXPECT_EQ(resume(parts).status, "finished");
+  EXPECT_EQ(contents(parts / "probes.csv"), contents(directory / "whole" / "probes.csv"));
+}
+
+TEST_F(ResumeTest, RefusesWhatItCannotGoOnWith) {
+  const auto refusal = [&](const fs::path& out) -> std::string {
+    try {
+      resume(out);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_THAT(refusal(directory / "nowhere"), HasSubstr("no such file"));
+  run(directory / "whole");
+  EXPECT_THAT(refusal(directory / "whole"), HasSubstr("has finished"));
+  const fs::path parts = directory / "parts";
+  trouble = [](FakeSolver& solver) {
+    if (solver.steps() == 60) std::raise(SIGINT);
+  };
+  run(parts);
+  EXPECT_THROW(run(parts), std::runtime_error) << "replacing it would lose what was computed";
+  fs::resize_file(parts / "probes.csv", 100);
+  EXPECT_THAT(refusal(parts), AllOf(HasSubstr("probes.csv"), HasSubstr("cannot be continued")));
+}
+
+}  // namespace
+}  // namespace sluice

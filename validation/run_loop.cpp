@@ -55,7 +55,7 @@ RunLoop::RunLoop(RunParts parts, const RunStart& start, const std::optional<RunP
       last_checkpoint_(Clock::now()),
       settings_(parts.settings),
       options_(parts.options),
-      case_file_(parts.the_case.file.string()),
+      case_file_(std::filesystem::absolute(parts.the_case.file).string()),
       case_hash_(parts.the_case.hash),
       solver_(std::move(parts.solver)),
       sensors_(parts.the_case, parts.scene, solver_->smoothing_length_m(), settings_.solver, settings_.walls),

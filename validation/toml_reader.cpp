@@ -117,6 +117,24 @@ std::vector<double> TomlReader::numbers(std::string_view key) {
   return values;
 }
 
+bool TomlReader::flag_or(std::string_view key, bool fallback) {
+  if (!has(key)) return fallback;
+  const toml::node& node = require(key, "true or false");
+  if (!node.is_boolean()) fail(key, fmt::format("is {}, must be true or false", type_name(node)));
+  return *node.value<bool>();
+}
+
+std::vector<std::string> TomlReader::texts(std::string_view key) {
+  const toml::node& node = require(key, "an array of strings");
+  if (!node.is_array()) fail(key, fmt::format("is {}, must be an array of strings", type_name(node)));
+  std::vector<std::string> values;
+  for (const toml::node& element : *node.as_array()) {
+    if (!element.is_string()) fail(key, fmt::format("holds {}, must hold strings only", type_name(element)));
+    values.push_back(*element.value<std::string>());
+  }
+  return values;
+}
+
 std::pair<double, double> TomlReader::range(std::string_view key) {
   const std::vector<double> values = numbers(key);
   if (values.size() != 2) fail(key, fmt::format("has {} numbers, must have two: [from, to]", values.size()));

@@ -30,7 +30,9 @@ class TomlReader {
   int integer(std::string_view key);
   std::string text(std::string_view key);
   std::string text_or(std::string_view key, std::string fallback);
+  bool flag_or(std::string_view key, bool fallback);
   std::vector<double> numbers(std::string_view key);
+  std::vector<std::string> texts(std::string_view key);
   /// Exactly two numbers, the first not above the second.
   std::pair<double, double> range(std::string_view key);
   Vec3d vec3(std::string_view key);

@@ -1,0 +1,197 @@
+#include "validation/campaign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "validation/checkpoint.h"
+#include "validation/manifest.h"
+#include "validation/toml_reader.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// One [[runs]] group as written.
+struct Group {
+  std::size_t the_case = 0;
+  RunRequest request;
+  std::vector<std::string> walls;
+  std::vector<double> l0_m;
+  std::vector<std::optional<double>> alpha;
+};
+
+std::size_t case_index(TomlReader& reader, Campaign& campaign, const fs::path& file) {
+  const std::string name = reader.text("case");
+  const bool is_path = fs::path(name).extension() == ".toml";
+  Case c = load_case(is_path ? (file.parent_path() / name).string() : name);
+  for (std::size_t i = 0; i < campaign.cases.size(); ++i)
+    if (campaign.cases[i].file == c.file) return i;
+  campaign.cases.push_back(std::move(c));
+  return campaign.cases.size() - 1;
+}
+
+Group parse_group(TomlReader reader, Campaign& campaign, const fs::path& file, int threads) {
+  Group group;
+  group.the_case = case_index(reader, campaign, file);
+  group.request.threads = threads;
+  group.request.solver = reader.text("solver");
+  group.walls = reader.has("walls") ? reader.texts("walls") : std::vector<std::string>{""};
+  group.l0_m = reader.numbers("l0_m");
+  if (reader.has("alpha")) {
+    for (const double alpha : reader.numbers("alpha")) group.alpha.emplace_back(alpha);
+  } else {
+    group.alpha = {std::nullopt};
+  }
+  if (const auto t_end_s = reader.optional_number("t_end_s")) group.request.overrides.emplace_back("t_end_s", *t_end_s);
+  group.request.snapshots = reader.flag_or("snapshots", false);
+  if (reader.has("parameters"))
+    for (const auto& parameter : reader.table("parameters").all_numbers()) group.request.overrides.push_back(parameter);
+  if (group.walls.empty()) reader.fail("walls", "is empty (leave it out for the default)");
+  if (group.l0_m.empty()) reader.fail("l0_m", "is empty (give particle distances in metres)");
+  if (group.alpha.empty()) reader.fail("alpha", "is empty (leave it out for the default)");
+  reader.finish();
+  return group;
+}
+
+/// kleefsman-wcsph-extrapolated-l0.020-alpha0.01, with what else the group sets.
+fs::path directory_of(const Case& c, const RunSettings& settings, const Group& group, const fs::path& out) {
+  std::string name = default_run_directory(c, settings).filename().string();
+  for (const auto& [key, value] : group.request.overrides)
+    if (key != "t_end_s" || value != c.t_end_s) name += fmt::format("-{}{:g}", key, value);
+  return out / name;
+}
+
+void add_runs(TomlReader& reader, const Group& group, Campaign& campaign, const fs::path& out) {
+  const Case& c = campaign.cases[group.the_case];
+  for (const std::string& walls : group.walls) {
+    for (const double l0_m : group.l0_m) {
+      for (const auto& alpha : group.alpha) {
+        RunRequest request = group.request;
+        request.walls = walls;
+        request.l0_m = l0_m;
+        if (alpha) request.overrides.emplace_back("alpha", *alpha);
+        CampaignRun run;
+        run.the_case = group.the_case;
+        try {
+          run.settings = resolve_settings(c, request);
+        } catch (const std::invalid_argument& error) {
+          reader.fail("", error.what());
+        }
+        run.directory = directory_of(c, run.settings, group, out);
+        for (const CampaignRun& other : campaign.runs)
+          if (other.directory == run.directory)
+            reader.fail("", fmt::format("{} occurs twice (take it out of one of the lists)",
+                                        run.directory.filename().string()));
+        campaign.runs.push_back(std::move(run));
+      }
+    }
+  }
+}
+
+/// Null where there is none, or where it cannot be read.
+json manifest_of(const fs::path& directory) {
+  std::ifstream in(directory / "run.json");
+  json manifest = in ? json::parse(in, nullptr, false) : json();
+  return manifest.is_object() ? manifest : json();
+}
+
+bool same_inputs(const json& manifest, const Case& c, const RunSettings& s) {
+  const auto is = [&](const char* key, const json& value) { return manifest.contains(key) && manifest[key] == value; };
+  return is("case_hash", c.hash) && is("solver", s.solver) && is("walls", s.walls) && is("l0_m", s.l0_m) &&
+         is("t_end_s", s.t_end_s) && is("output_rate_Hz", s.output_rate_Hz) && is("parameters", s.parameters);
+}
+
+double number_of(const json& manifest, const char* key) {
+  return manifest.contains(key) && manifest[key].is_number() ? manifest[key].get<double>() : 0;
+}
+
+/// Whether a run says something about the cost of another on this machine.
+bool comparable(const json& manifest, const RunSettings& s) {
+  return manifest.is_object() && manifest.value("status", "") == "finished" &&
+         manifest.value("solver", "") == s.solver && manifest.value("walls", "") == s.walls &&
+         number_of(manifest, "threads") == s.threads && manifest.value("cpu", "") == cpu_model() &&
+         number_of(manifest, "wall_time_s") > 0 && number_of(manifest, "steps") > 0 && number_of(manifest, "l0_m") > 0;
+}
+
+}  // namespace
+
+Campaign load_campaign(const fs::path& file, const fs::path& out, int threads) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf()))
+    throw CaseError(fmt::format("{}: cannot be read (give the path of a campaign's TOML file)", file.string()));
+  toml::table table;
+  try {
+    table = toml::parse(text.str(), file.string());
+  } catch (const toml::parse_error& error) {
+    throw_case_error(file.string(), static_cast<int>(error.source().begin.line), "syntax", error.description());
+  }
+  TomlReader root(table, file.string());
+  Campaign campaign;
+  campaign.name = root.text("name");
+  for (TomlReader& reader : root.tables("runs")) {
+    const Group group = parse_group(reader, campaign, file, threads);
+    add_runs(reader, group, campaign, out);
+  }
+  root.finish();
+  return campaign;
+}
+
+CampaignState state_of(const Campaign& campaign, const CampaignRun& run) {
+  const json manifest = manifest_of(run.directory);
+  if (manifest.is_null()) return CampaignState::absent;
+  if (!same_inputs(manifest, campaign.case_of(run), run.settings)) return CampaignState::outdated;
+  if (manifest.value("status", "") == "finished") return CampaignState::finished;
+  return fs::exists(run.directory / checkpoint_file) ? CampaignState::resumable : CampaignState::incomplete;
+}
+
+std::string to_string(CampaignState state) {
+  switch (state) {
+    case CampaignState::absent:
+      return "to do";
+    case CampaignState::finished:
+      return "finished";
+    case CampaignState::resumable:
+      return "to resume";
+    case CampaignState::incomplete:
+      return "to repeat";
+    case CampaignState::outdated:
+      return "outdated";
+  }
+  return "";
+}
+
+CampaignEstimate estimate(const Campaign& campaign, const CampaignRun& run) {
+  CampaignEstimate e;
+  e.plan = plan_run(campaign.case_of(run), run.settings);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const CampaignRun& other : campaign.runs) {
+    const json manifest = manifest_of(other.directory);
+    if (!comparable(manifest, run.settings)) continue;
+    const double l0_m = number_of(manifest, "l0_m");
+    const double distance = std::abs(std::log(l0_m / run.settings.l0_m));
+    if (distance >= nearest) continue;
+    nearest = distance;
+    e.measured = true;
+    // Steps per second of flow go with 1 / l0 in both methods, particles are counted.
+    const double steps = number_of(manifest, "steps") * l0_m / run.settings.l0_m * run.settings.t_end_s /
+                         std::max(number_of(manifest, "time_s"), 1e-9);
+    const double fluid = std::max(1.0, number_of(manifest.value("particles", json::object()), "fluid"));
+    const double work = static_cast<double>(e.plan.particles.fluid) * steps / (fluid * number_of(manifest, "steps"));
+    e.plan.steps = steps;
+    e.plan.dt_s = run.settings.t_end_s / steps;
+    e.plan.wall_time_s = number_of(manifest, "wall_time_s") * work;
+  }
+  if (state_of(campaign, run) == CampaignState::resumable)
+    e.done_share = std::min(1.0, number_of(manifest_of(run.directory), "time_s") / run.settings.t_end_s);
+  return e;
+}
+
+}  // namespace sluice

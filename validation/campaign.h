@@ -1,0 +1,66 @@
+// A campaign: many runs from one TOML file, cases x solvers x walls x particle distances x alphas.
+//
+//   name = "quick"
+//   [[runs]]                                # one group, every combination of its lists
+//   case = "kleefsman"                      # a name, or a path relative to this file
+//   solver = "wcsph"
+//   walls = ["extrapolated", "dynamic"]     # default: the solver's default
+//   l0_m = [0.03, 0.02]
+//   alpha = [0.1, 0.01]                     # of solvers that have it; default: the case's
+//   t_end_s = 6.0                           # default: the case's
+//   snapshots = true                        # default: none
+//   parameters = { delta = 0.1 }            # default: the case's
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/case.h"
+#include "validation/plan.h"
+#include "validation/run_settings.h"
+
+namespace sluice {
+
+struct CampaignRun {
+  std::size_t the_case = 0;  ///< index into Campaign::cases
+  RunSettings settings;
+  std::filesystem::path directory;
+};
+
+struct Campaign {
+  std::string name;
+  std::vector<Case> cases;
+  std::vector<CampaignRun> runs;  ///< in the file's order, lists from left to right, the last varying fastest
+
+  const Case& case_of(const CampaignRun& run) const { return cases[run.the_case]; }
+};
+
+/// Reads a campaign; its runs go to directories below `out`. `threads` 0: all processors.
+/// Throws CaseError `file:line: key: message`, also where two combinations are the same run.
+Campaign load_campaign(const std::filesystem::path& file, const std::filesystem::path& out, int threads);
+
+/// Where a run of a campaign stands on disk.
+enum class CampaignState {
+  absent,
+  finished,    ///< with the inputs of today
+  resumable,   ///< with the inputs of today, and a checkpoint
+  incomplete,  ///< begun, failed or interrupted, without a checkpoint to go on from
+  outdated,    ///< computed from other inputs: another case file or other parameters
+};
+CampaignState state_of(const Campaign& campaign, const CampaignRun& run);
+std::string to_string(CampaignState state);
+
+/// What a run will cost.
+struct CampaignEstimate {
+  Plan plan;
+  bool measured = false;  ///< from a finished run of the same kind on this machine, not from this program's constants
+  double done_share = 0;  ///< of a run that can be resumed
+  double remaining_s() const { return (1 - done_share) * plan.wall_time_s; }
+};
+/// Scales the wall time of the finished run that is nearest in particle distance among those of the same solver, walls,
+/// number of threads and processor; where there is none, plan_run() alone.
+CampaignEstimate estimate(const Campaign& campaign, const CampaignRun& run);
+
+}  // namespace sluice

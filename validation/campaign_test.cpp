@@ -1,0 +1,153 @@
+#include "validation/campaign.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "validation/checkpoint.h"
+#include "validation/manifest.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CampaignTest : public testing::Test {
+ protected:
+  CampaignTest() {
+    directory = fs::temp_directory_path() /
+                (std::string("sluice-campaign-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(directory);
+    fs::create_directories(directory);
+    file = directory / "c.toml";
+  }
+  ~CampaignTest() override { fs::remove_all(directory); }
+
+  Campaign load(const std::string& text) const {
+    std::ofstream(file) << text;
+    return load_campaign(file, directory / "runs", 1);
+  }
+  std::string refusal(const std::string& text) const {
+    try {
+      load(text);
+    } catch (const CaseError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+  /// A manifest as a run of this campaign leaves it.
+  static nlohmann::json manifest(const Campaign& campaign, const CampaignRun& run, const std::string& status) {
+    const RunSettings& s = run.settings;
+    return {{"case_hash", campaign.case_of(run).hash},
+            {"solver", s.solver},
+            {"walls", s.walls},
+            {"l0_m", s.l0_m},
+            {"t_end_s", s.t_end_s},
+            {"output_rate_Hz", s.output_rate_Hz},
+            {"parameters", s.parameters},
+            {"threads", s.threads},
+            {"cpu", cpu_model()},
+            {"status", status}};
+  }
+  static void put(const CampaignRun& run, const nlohmann::json& manifest) {
+    fs::create_directories(run.directory);
+    std::ofstream(run.directory / "run.json") << manifest;
+  }
+
+  fs::path directory;
+  fs::path file;
+};
+
+const char* const two_groups = R"(name = "two"
+[[runs]]
+case = "kleefsman"
+solver = "wcsph"
+walls = ["extrapolated", "dynamic"]
+l0_m = [0.05, 0.04]
+alpha = [0.1, 0.01]
+t_end_s = 2.0
+[[runs]]
+case = "kleefsman"
+solver = "mps"
+l0_m = [0.05]
+parameters = { restitution = 0.5 }
+)";
+
+TEST_F(CampaignTest, IsEveryCombination) {
+  const Campaign c = load(two_groups);
+  EXPECT_EQ(c.name, "two");
+  EXPECT_EQ(c.cases.size(), 1U);
+  ASSERT_EQ(c.runs.size(), 9U);
+  EXPECT_EQ(c.runs[0].directory.filename(), "kleefsman-wcsph-extrapolated-l0.050-alpha0.1-t_end_s2");
+  EXPECT_EQ(c.runs[3].settings.l0_m, 0.04);
+  EXPECT_EQ(c.runs[3].settings.parameters.at("alpha"), 0.01);
+  EXPECT_EQ(c.runs[4].settings.walls, "dynamic");
+  EXPECT_EQ(c.runs[4].settings.t_end_s, 2.0);
+  EXPECT_EQ(c.runs[8].settings.solver, "mps");
+  EXPECT_EQ(c.runs[8].settings.t_end_s, 6.0);
+  EXPECT_EQ(c.runs[8].settings.parameters.at("restitution"), 0.5);
+}
+
+TEST_F(CampaignTest, ErrorsNameFileLineAndKey) {
+  EXPECT_THAT(refusal("name = \"x\"\n"), AllOf(HasSubstr(file.string()), HasSubstr("runs")));
+  const std::string head = "name = \"x\"\n[[runs]]\ncase = \"kleefsman\"\nsolver = \"wcsph\"\n";
+  EXPECT_THAT(refusal(head + "l0 = [0.05]\n"), HasSubstr("l0_m"));
+  EXPECT_THAT(refusal(head + "l0_m = [0.05]\nalhpa = [1.0]\n"), AllOf(HasSubstr(":6:"), HasSubstr("alhpa")));
+  EXPECT_THAT(refusal(head + "l0_m = 0.05\n"), AllOf(HasSubstr(":5:"), HasSubstr("array of numbers")));
+  EXPECT_THAT(refusal(head + "l0_m = [0.5]\n"), HasSubstr("runs[0]"));
+  EXPECT_THAT(refusal(head + "l0_m = [0.05]\nwalls = [\"glass\"]\n"), HasSubstr("glass"));
+  EXPECT_THAT(refusal(head + "l0_m = [0.05, 0.05]\n"), HasSubstr("occurs twice"));
+  EXPECT_THAT(refusal(head + "l0_m = [0.05\n"), HasSubstr("syntax"));
+  EXPECT_THAT(refusal("name = \"x\"\n[[runs]]\ncase = \"kleefman\"\n"), HasSubstr("kleefsman"));
+}
+
+TEST_F(CampaignTest, StatesFollowInputs) {
+  const Campaign c = load(two_groups);
+  const CampaignRun& run = c.runs[0];
+  EXPECT_EQ(state_of(c, run), CampaignState::absent);
+  put(run, manifest(c, run, "finished"));
+  EXPECT_EQ(state_of(c, run), CampaignState::finished);
+  put(run, manifest(c, run, "running"));
+  EXPECT_EQ(state_of(c, run), CampaignState::incomplete);
+  std::ofstream(run.directory / checkpoint_file) << "something";
+  EXPECT_EQ(state_of(c, run), CampaignState::resumable);
+  auto other = manifest(c, run, "finished");
+  other["parameters"]["delta"] = 0.05;
+  put(run, other);
+  EXPECT_EQ(state_of(c, run), CampaignState::outdated);
+}
+
+TEST_F(CampaignTest, TimesAreScaledFromTheNearestFinishedRunOfItsKind) {
+  const Campaign c = load(two_groups);
+  const CampaignRun& coarse = c.runs[0];
+  const CampaignRun& fine = c.runs[2];
+  EXPECT_FALSE(estimate(c, fine).measured);
+  auto done = manifest(c, coarse, "finished");
+  done["wall_time_s"] = 10.0;
+  done["steps"] = 1000;
+  done["time_s"] = 2.0;
+  done["particles"] = {{"fluid", 5000}, {"solid", 9000}};
+  put(coarse, done);
+  const CampaignEstimate e = estimate(c, fine);
+  EXPECT_TRUE(e.measured);
+  EXPECT_NEAR(e.plan.steps, 1250, 1e-6);
+  EXPECT_NEAR(e.plan.wall_time_s, 10.0 * 1.25 * static_cast<double>(e.plan.particles.fluid) / 5000, 1e-6);
+  EXPECT_FALSE(estimate(c, c.runs[4]).measured) << "other walls";
+  auto part = manifest(c, fine, "interrupted");
+  part["time_s"] = 1.5;
+  put(fine, part);
+  std::ofstream(fine.directory / checkpoint_file) << "something";
+  EXPECT_NEAR(estimate(c, fine).remaining_s(), 0.25 * e.plan.wall_time_s, 1e-6);
+}
+
+TEST_F(CampaignTest, ThoseOfTheProjectCanBeRead) {
+  for (const auto& entry : fs::directory_iterator(resolve_in_source_tree("validation/campaigns")))
+    EXPECT_FALSE(load_campaign(entry.path(), directory, 1).runs.empty()) << entry.path();
+}
+
+}  // namespace
+}  // namespace sluice

@@ -1,0 +1,175 @@
+#include "validation/campaign.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reports/report.h"
+#include "validation/cli/commands.h"
+#include "validation/plan.h"
+#include "validation/run.h"
+
+namespace sluice::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string file;
+  std::string out;
+  int threads = 0;
+  double checkpoint_every_s = RunOptions().checkpoint_every_s;
+  bool dry_run = false;
+  bool force = false;
+  bool no_report = false;
+};
+
+/// What came of one run.
+struct Result {
+  std::string status;  ///< as in run.json, or "kept" for one that was there already
+  std::string error;
+};
+
+double remaining_s(const Campaign& campaign, std::size_t from, bool force) {
+  double sum = 0;
+  for (std::size_t i = from; i < campaign.runs.size(); ++i)
+    if (force || state_of(campaign, campaign.runs[i]) != CampaignState::finished)
+      sum += estimate(campaign, campaign.runs[i]).remaining_s();
+  return sum;
+}
+
+void print_plan(const Campaign& campaign, bool force) {
+  std::size_t to_do = 0;
+  std::int64_t most_bytes = 0;
+  for (const CampaignRun& run : campaign.runs) {
+    const CampaignState state = state_of(campaign, run);
+    const CampaignEstimate e = estimate(campaign, run);
+    fmt::print("{:10} {:>9} fluid {:>9} solid {:>8} {:>14}{}  {}\n", to_string(state), e.plan.particles.fluid,
+               e.plan.particles.solid, human_bytes(static_cast<double>(e.plan.memory_bytes)),
+               state == CampaignState::finished ? "" : human_time(e.remaining_s()), e.measured ? " " : "*",
+               run.directory.filename().string());
+    to_do += force || state != CampaignState::finished;
+    most_bytes = std::max(most_bytes, e.plan.memory_bytes);
+  }
+  fmt::print(
+      "{}: {} runs, {} to compute, at most {} of memory, about {} (*: from this program's constants, not measured "
+      "here)\n",
+      campaign.name, campaign.runs.size(), to_do, human_bytes(static_cast<double>(most_bytes)),
+      human_time(remaining_s(campaign, 0, force)));
+  std::fflush(stdout);
+}
+
+RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Arguments& arguments) {
+  const bool terminal = isatty(STDERR_FILENO) == 1;
+  if (!arguments.force && state_of(campaign, run) == CampaignState::resumable) {
+    ResumeOptions options;
+    options.threads = run.settings.threads;
+    options.progress = stderr;
+    options.terminal = terminal;
+    options.checkpoint_every_s = arguments.checkpoint_every_s;
+    return resume_run(run.directory, options);
+  }
+  RunOptions options;
+  options.out = run.directory;
+  options.force = true;  // the directory is the campaign's own
+  options.progress = stderr;
+  options.terminal = terminal;
+  options.checkpoint_every_s = arguments.checkpoint_every_s;
+  return run_case(campaign.case_of(run), run.settings, options);
+}
+
+/// A run that fails is told and does not stop the others. Returns the code of an interruption, or 0.
+int compute_all(const Campaign& campaign, const Arguments& arguments, std::vector<Result>& results) {
+  for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
+    const CampaignRun& run = campaign.runs[i];
+    if (!arguments.force && state_of(campaign, run) == CampaignState::finished) {
+      results.push_back({"kept", ""});
+      continue;
+    }
+    fmt::print(stderr, "[{}/{}] {}; {} left of the campaign\n", i + 1, campaign.runs.size(),
+               run.directory.filename().string(), human_time(remaining_s(campaign, i, arguments.force)));
+    RunOutcome outcome;
+    try {
+      outcome = compute(campaign, run, arguments);
+    } catch (const std::exception& error) {
+      outcome = {"failed", error.what(), 1};
+    }
+    results.push_back({outcome.status, outcome.error});
+    if (outcome.status == "interrupted") return outcome.exit_code;
+  }
+  return 0;
+}
+
+/// True when none failed.
+bool print_results(const Campaign& campaign, const std::vector<Result>& results) {
+  bool all_well = true;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const bool failed = results[i].status == "failed";
+    all_well = all_well && !failed;
+    fmt::print("{:12} {}{}\n", results[i].status, campaign.runs[i].directory.filename().string(),
+               failed ? ": " + results[i].error : "");
+  }
+  std::fflush(stdout);
+  return all_well;
+}
+
+/// One report a case, over its runs that have ended well.
+void report_cases(const Campaign& campaign, const fs::path& out) {
+  for (const Case& c : campaign.cases) {
+    std::vector<fs::path> directories;
+    for (const CampaignRun& run : campaign.runs)
+      if (&campaign.case_of(run) == &c && state_of(campaign, run) == CampaignState::finished)
+        directories.push_back(run.directory);
+    if (directories.empty()) continue;
+    const fs::path folder = out / ("report-" + c.name);
+    write_report(directories, folder);
+    fmt::print("report: {}\n", (folder / "index.html").string());
+  }
+}
+
+int run(const Arguments& arguments) {
+  const fs::path file = arguments.file;
+  const fs::path out = arguments.out.empty() ? fs::path("runs") / file.stem() : fs::path(arguments.out);
+  const Campaign campaign = load_campaign(file, out, arguments.threads);
+  print_plan(campaign, arguments.force);
+  if (arguments.dry_run) return 0;
+  std::vector<Result> results;
+  const int interrupted = compute_all(campaign, arguments, results);
+  const bool all_well = print_results(campaign, results);
+  if (interrupted != 0) {
+    fmt::print(stderr, "interrupted; the same command goes on\n");
+    return interrupted;
+  }
+  if (!arguments.no_report) report_cases(campaign, out);
+  return all_well ? 0 : 1;
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("campaign", "Compute many runs from one file, and report them");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("FILE", arguments->file, "Campaign, such as validation/campaigns/quick.toml")->required();
+  command->add_option("--out", arguments->out, "Directory of its runs and reports (default: runs/<file's name>)");
+  command->add_option("--threads", arguments->threads, "Threads of each run (default: all processors)")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--checkpoint-every", arguments->checkpoint_every_s, "Seconds between checkpoints of a run")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_flag("--dry-run", arguments->dry_run, "Print the plan, and stop");
+  command->add_flag("--force", arguments->force, "Compute finished runs again");
+  command->add_flag("--no-report", arguments->no_report, "Runs only");
+  command->footer(
+      "Finished runs whose inputs have not changed are kept, unfinished ones go on from their checkpoints, failed ones "
+      "are\n"
+      "told and do not stop the others. Interrupted, the same command goes on.\n\n"
+      "Examples:\n"
+      "  sluice campaign validation/campaigns/quick.toml --dry-run\n"
+      "  sluice campaign validation/campaigns/nightly.toml --out runs/nightly");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace sluice::cli

@@ -76,7 +76,24 @@ void read_sensor(AnalysedRun& run, const CaseSensor& sensor, const MeasuredSerie
   }
 }
 
-void note_problems(AnalysedRun& run, Window window) {
+/// Pressures in kPa under the name of Pa, heights in millimetres: off by a factor that no physics explains.
+void note_doubtful_units(AnalysedRun& run, const ReportData& data) {
+  constexpr double too_much = 150;
+  for (const SensorReading& reading : run.readings) {
+    const MeasuredSeries* measured = data.measured_series(reading.sensor);
+    if (!reading.primary || reading.warning_only || measured == nullptr || measured->maximum.empty() ||
+        reading.series.value.empty())
+      continue;
+    const double ratio = *std::max_element(reading.series.value.begin(), reading.series.value.end()) /
+                         *std::max_element(measured->maximum.begin(), measured->maximum.end());
+    if (ratio > too_much || (ratio > 0 && ratio < 1 / too_much))
+      run.problems.push_back(fmt::format("{} peaks at {} times the measured value: is its unit {}?", reading.sensor,
+                                         significant(ratio, 2), reading.comparison.unit));
+  }
+}
+
+void note_problems(AnalysedRun& run, const ReportData& data) {
+  const Window window = data.window;
   const RunRecord& record = run.record;
   if (record.status() == "running") run.problems.push_back("still running when the report was made");
   if (record.status() == "interrupted") run.problems.push_back("interrupted before its end");
@@ -89,6 +106,7 @@ void note_problems(AnalysedRun& run, Window window) {
     run.problems.push_back(
         fmt::format("covers {} s of a window that ends at {} s: what needs the whole window is missing",
                     fixed(times.back(), 2), fixed(window.end_s, 2)));
+  note_doubtful_units(run, data);
   if (record.number("lost.through_walls").value_or(0) > 0)
     run.problems.push_back(fmt::format("fluid particles that went through a wall, an error of the method: {}",
                                        grouped(std::llround(*record.number("lost.through_walls")))));
@@ -218,7 +236,7 @@ ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
     for (const CaseSensor& sensor : data.the_case.sensors)
       read_sensor(run, sensor, data.measured_series(sensor.name), data.window);
     run.acceptance = check_acceptance(data.the_case, run.record, data.measured ? &*data.measured : nullptr);
-    note_problems(run, data.window);
+    note_problems(run, data);
     data.runs.push_back(std::move(run));
   }
   return data;

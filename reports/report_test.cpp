@@ -143,6 +143,17 @@ TEST(ReportTables, LabelsSayWhatARunHasSetOtherwiseThanTheCase) {
       << "friction 0 is the walls' own default";
 }
 
+TEST(ReportTables, UnitsThatCannotBeRightAreDoubted) {
+  const fs::path dir = fresh("units");
+  synthetic::write_external_run(dir, 1000.0);
+  const auto problems = analyse({dir}).runs[0].problems;
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_NE(problems[1].find("P1 peaks at"), std::string::npos) << problems[1];
+  EXPECT_NE(problems[1].find("is its unit Pa?"), std::string::npos) << problems[1];
+  synthetic::write_external_run(dir, 2.0);
+  EXPECT_TRUE(analyse({dir}).runs[0].problems.empty());
+}
+
 TEST(ReportTables, EnergyAndCompressionOfTheFluid) {
   const fs::path own = fresh("conservation");
   const fs::path external = fresh("conservation_external");

@@ -31,6 +31,10 @@ std::string_view take_field(std::string_view& rest, char separator, bool& more) 
   return trimmed(field);
 }
 
+bool is_gap(std::string_view field) {
+  return field.empty() || field == "nan" || field == "NaN" || field == "NAN" || field == "-nan";
+}
+
 std::unique_ptr<io::LineReader> open_lines(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) {
     throw std::runtime_error(fmt::format("{}: is a directory; name the file in it", path.string()));
@@ -68,7 +72,26 @@ std::string TextTableReader::next_header_line() {
   fail("the file ends within its header");
 }
 
-double TextTableReader::number(std::string_view field, const std::string& name) const {
+const char* TextTableReader::next_line() {
+  if (std::exchange(has_ahead_, false)) return ahead_.c_str();
+  return lines_->next_line();
+}
+
+std::size_t TextTableReader::count_fields(char separator) {
+  ahead_ = next_header_line();
+  has_ahead_ = true;
+  return split_fields(ahead_, separator).size();
+}
+
+double TextTableReader::number(std::string_view field, const std::string& name, bool decimal_comma) const {
+  std::string with_point;
+  if (decimal_comma && field.find(',') != std::string_view::npos) {
+    if (field.find('.') != std::string_view::npos)
+      fail(fmt::format("{}: \"{}\" has a point where decimal commas were announced", name, field));
+    with_point = field;
+    with_point[with_point.find(',')] = '.';
+    field = with_point;
+  }
   if (field.starts_with('+')) field.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
@@ -81,17 +104,28 @@ double TextTableReader::number(std::string_view field, const std::string& name) 
   return value;
 }
 
-void TextTableReader::read_row(std::string_view line, const std::vector<std::string>& names, char separator) {
+bool TextTableReader::read_row(std::string_view line, const std::vector<std::string>& names, const RowForm& form) {
   std::size_t count = 0;
+  bool complete = true;
+  row_.assign(names.size(), 0.0);
   auto rest = trimmed(line);
   for (bool more = true; more; ++count) {
-    const auto field = take_field(rest, separator, more);
-    if (count < names.size()) columns_[count].push_back(number(field, names[count]));
+    const auto field = take_field(rest, form.separator, more);
+    if (count >= names.size() || !wanted_[count]) continue;
+    if (form.skip_incomplete && is_gap(field)) {
+      complete = false;
+    } else {
+      row_[count] = number(field, names[count], form.decimal_comma);
+    }
   }
   if (count != names.size()) {
     fail(fmt::format("{} fields where {} columns are named; a line cut off at the end of the file can be deleted",
                      count, names.size()));
   }
+  if (!complete) return false;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (wanted_[k]) columns_[k].push_back(row_[k]);
+  return true;
 }
 
 void TextTableReader::check_time(const std::vector<double>& times, const std::string& name) const {
@@ -103,16 +137,26 @@ void TextTableReader::check_time(const std::vector<double>& times, const std::st
 
 std::vector<std::vector<double>> TextTableReader::read_rows(const std::vector<std::string>& names, char separator,
                                                             std::size_t time_index) {
+  return read_rows(names, RowForm{separator}, time_index);
+}
+
+std::vector<std::vector<double>> TextTableReader::read_rows(const std::vector<std::string>& names, const RowForm& form,
+                                                            std::size_t time_index) {
   columns_.assign(names.size(), {});
+  wanted_.assign(names.size(), form.wanted.empty());
+  for (const std::size_t column : form.wanted) wanted_.at(column) = true;
   bool blank_seen = false;
-  while (const char* text = lines_->next_line()) {
+  while (const char* text = next_line()) {
     const std::string_view line = trimmed(text);
     if (line.empty()) {
       blank_seen = true;
       continue;
     }
     if (blank_seen) fail("a row after a blank line; delete blank lines between rows");
-    read_row(line, names, separator);
+    if (!read_row(line, names, form)) {
+      ++skipped_;
+      continue;
+    }
     check_time(columns_.at(time_index), names[time_index]);
   }
   return std::exchange(columns_, {});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -17,6 +18,14 @@ namespace sluice {
 
 /// Splits a line; ' ' as separator stands for any run of blanks and tabs. Blanks around a field are dropped.
 std::vector<std::string> split_fields(std::string_view line, char separator);
+
+/// How the rows of a file are written.
+struct RowForm {
+  char separator = ',';
+  bool decimal_comma = false;
+  std::vector<std::size_t> wanted = {};  ///< columns that are read, others may hold anything; none: all
+  bool skip_incomplete = false;          ///< rows in which a wanted field is empty or NaN are left out and counted
+};
 
 /// Reads header lines one by one, then all rows. Every error is a std::runtime_error that begins with "file:line: ".
 class TextTableReader {
@@ -33,18 +42,32 @@ class TextTableReader {
   /// increase.
   std::vector<std::vector<double>> read_rows(const std::vector<std::string>& names, char separator,
                                              std::size_t time_index);
+  /// The same for rows of another form; columns that are not wanted come back empty.
+  std::vector<std::vector<double>> read_rows(const std::vector<std::string>& names, const RowForm& form,
+                                             std::size_t time_index);
+  /// Fields of the next line, which is not consumed.
+  std::size_t count_fields(char separator);
+  /// Rows that were left out.
+  std::int64_t skipped() const { return skipped_; }
 
   /// Throws "file:line: message" for the line last read.
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
-  void read_row(std::string_view line, const std::vector<std::string>& names, char separator);
-  double number(std::string_view field, const std::string& name) const;
+  const char* next_line();
+  /// False when the row is left out.
+  bool read_row(std::string_view line, const std::vector<std::string>& names, const RowForm& form);
+  double number(std::string_view field, const std::string& name, bool decimal_comma) const;
   void check_time(const std::vector<double>& times, const std::string& name) const;
 
   std::filesystem::path path_;
   std::unique_ptr<io::LineReader> lines_;
   std::vector<std::vector<double>> columns_;
+  std::vector<bool> wanted_;
+  std::vector<double> row_;
+  std::int64_t skipped_ = 0;
+  std::string ahead_;  ///< a line that was looked at before its time
+  bool has_ahead_ = false;
 };
 
 }  // namespace sluice

@@ -56,8 +56,9 @@ class CommandLine : public testing::Test {
 };
 
 TEST_F(CommandLine, HelpAndVersionGoToStdout) {
-  for (const char* arguments : {"--help", "list --help", "run --help", "validate --help", "report --help",
-                                "data --help", "data digest --help"}) {
+  for (const char* arguments :
+       {"--help", "list --help", "run --help", "resume --help", "campaign --help", "compare --help", "validate --help",
+        "report --help", "data --help", "data digest --help"}) {
     const Answer answer = sluice(arguments);
     EXPECT_EQ(answer.exit_code, 0) << arguments;
     EXPECT_THAT(answer.out, HasSubstr("Example")) << arguments;
@@ -67,9 +68,9 @@ TEST_F(CommandLine, HelpAndVersionGoToStdout) {
 }
 
 TEST_F(CommandLine, UsageErrorsAreTwo) {
-  for (const char* arguments :
-       {"", "bogus", "run", "run kleefsman --walls glass", "run kleefsman --l0 0.5", "run kleefsman --l0 two",
-        "run kleefsman alhpa=1", "run kleefsman --threads -1", "validate --tier none", "report", "data"}) {
+  for (const char* arguments : {"", "bogus", "run", "run kleefsman --walls glass", "run kleefsman --l0 0.5",
+                                "run kleefsman --l0 two", "run kleefsman alhpa=1", "run kleefsman --threads -1",
+                                "resume", "campaign", "compare", "validate --tier none", "report", "data"}) {
     const Answer answer = sluice(arguments);
     EXPECT_EQ(answer.exit_code, 2) << arguments;
     EXPECT_THAT(answer.err, StartsWith("sluice: error: ")) << arguments;
@@ -80,6 +81,9 @@ TEST_F(CommandLine, UsageErrorsAreTwo) {
 
 TEST_F(CommandLine, FailuresAreOne) {
   EXPECT_EQ(sluice("run no-such-case").exit_code, 1);
+  EXPECT_EQ(sluice("resume " + directory.string()).exit_code, 1);
+  EXPECT_EQ(sluice("campaign " + (directory / "no.toml").string()).exit_code, 1);
+  EXPECT_EQ(sluice("compare " + (directory / "no.toml").string()).exit_code, 1);
   EXPECT_EQ(sluice("report " + (directory / "nowhere").string()).exit_code, 1);
   const Answer large = sluice("run kleefsman --l0 0.0002 --dry-run");
   EXPECT_EQ(large.exit_code, 1);
@@ -142,6 +146,34 @@ TEST_F(CommandLine, AnInterruptedRunKeepsItsResults) {
   const RunRecord record = read_run(run);
   EXPECT_EQ(record.status(), "interrupted");
   EXPECT_GT(record.probes.rows(), 0u);
+}
+
+// One run that ends, one that cannot: the campaign goes on, tells the failure, and keeps what is finished.
+TEST_F(CommandLine, ACampaignGoesOnPastAFailureAndKeepsWhatIsFinished) {
+  std::ofstream(directory / "c.toml") << R"(name = "c"
+[[runs]]
+case = "kleefsman"
+solver = "mps"
+l0_m = [0.05]
+t_end_s = 0.01
+parameters = { most_iterations = 1 }
+[[runs]]
+case = "kleefsman"
+solver = "wcsph"
+walls = ["dynamic"]
+l0_m = [0.05]
+t_end_s = 0.01
+)";
+  const std::string command = fmt::format("campaign {} --threads 1 --no-report --out {}",
+                                          (directory / "c.toml").string(), (directory / "runs").string());
+  const Answer plan = sluice(command + " --dry-run");
+  EXPECT_EQ(plan.exit_code, 0);
+  EXPECT_THAT(plan.out, HasSubstr("2 runs, 2 to compute"));
+  const Answer first = sluice(command);
+  EXPECT_EQ(first.exit_code, 1);
+  EXPECT_THAT(first.out, AllOf(HasSubstr("failed       kleefsman-mps"), HasSubstr("did not converge"),
+                               HasSubstr("finished     kleefsman-wcsph")));
+  EXPECT_THAT(sluice(command).out, AllOf(HasSubstr("2 runs, 1 to compute"), HasSubstr("kept         kleefsman-wcsph")));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ void add_run(CLI::App& app, int& exit_code);
 void add_resume(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
 void add_campaign(CLI::App& app, int& exit_code);
+void add_compare(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_data(CLI::App& app, int& exit_code);
 

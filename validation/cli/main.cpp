@@ -33,6 +33,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   sluice::cli::add_resume(app, exit_code);
   sluice::cli::add_validate(app, exit_code);
   sluice::cli::add_campaign(app, exit_code);
+  sluice::cli::add_compare(app, exit_code);
   sluice::cli::add_report(app, exit_code);
   sluice::cli::add_data(app, exit_code);
 }

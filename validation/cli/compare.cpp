@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "reports/report.h"
+#include "validation/cli/commands.h"
+#include "validation/cli/usage_error.h"
+#include "validation/foreign.h"
+#include "validation/run_directory.h"
+
+namespace sluice::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::vector<std::string> sources;
+  std::string case_name;
+  std::string out = "reports/out";
+  ReportOptions options;
+  bool no_figures = false;
+};
+
+/// Run directories as they are; maps of foreign files become run directories below the report.
+std::vector<fs::path> run_directories(const Arguments& arguments) {
+  std::vector<fs::path> directories;
+  std::set<std::string> names;
+  for (const std::string& source : arguments.sources) {
+    if (fs::path(source).extension() != ".toml") {
+      directories.emplace_back(source);
+      continue;
+    }
+    const std::string name = fs::path(source).stem().string();
+    if (!names.insert(name).second)
+      throw UsageError(fmt::format("{}: another map is called {} too (rename one)", source, name));
+    directories.push_back(fs::path(arguments.out) / "imported" / name);
+    import_foreign(load_foreign_map(source), directories.back());
+    fmt::print(stderr, "{}: read into {}\n", source, directories.back().string());
+  }
+  return directories;
+}
+
+int compare(Arguments& arguments) {
+  const std::vector<fs::path> directories = run_directories(arguments);
+  if (!arguments.case_name.empty()) {
+    const std::string wanted = load_case(arguments.case_name).name;
+    for (const fs::path& directory : directories)
+      if (const RunRecord run = read_run(directory); run.case_name != wanted)
+        throw UsageError(fmt::format("{}: is of the case {}, not {}", directory.string(), run.case_name, wanted));
+  }
+  arguments.options.figures = !arguments.no_figures;
+  write_report(directories, arguments.out, arguments.options);
+  fmt::print("report: {}\n", (fs::path(arguments.out) / "index.html").string());
+  return 0;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("compare", "Compare results of any code with the experiment and with runs");
+  auto arguments = std::make_shared<Arguments>();
+  command
+      ->add_option(
+          "SOURCE", arguments->sources,
+          "Run directories (run.json with case, solver, l0_m; probes.csv with t_s, P1_Pa, ...), or maps of files\n"
+          "in another form (a .toml file; the form stands in validation/foreign.h and in the README)")
+      ->required();
+  command->add_option("--case", arguments->case_name, "Refuse sources of any other case");
+  command->add_option("--out", arguments->out, "Directory of the report")->capture_default_str();
+  command->add_option("--title", arguments->options.title, "Title (default: the case's)");
+  command->add_flag("--no-figures", arguments->no_figures, "Tables and text only (gnuplot is not needed)");
+  command->footer(
+      "Examples:\n"
+      "  sluice compare my-run runs/kleefsman-* --case kleefsman\n"
+      "  sluice compare gauges.toml --out reports/mine");
+  command->callback([arguments, &exit_code] { exit_code = compare(*arguments); });
+}
+
+}  // namespace sluice::cli

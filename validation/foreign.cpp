@@ -1,0 +1,227 @@
+#include "validation/foreign.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "validation/curve.h"
+#include "validation/file_hash.h"
+#include "validation/manifest.h"
+#include "validation/suggest.h"
+#include "validation/text_table.h"
+#include "validation/toml_reader.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, double> time_units{{"s", 1}, {"ms", 1e-3}};
+const std::map<std::string, double> pressure_units{{"Pa", 1},    {"hPa", 100}, {"mbar", 100},
+                                                   {"kPa", 1e3}, {"bar", 1e5}, {"MPa", 1e6}};
+const std::map<std::string, double> length_units{{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}};
+
+double factor_of(TomlReader& reader, const std::map<std::string, double>& units) {
+  const std::string unit = reader.text("unit");
+  if (const auto found = units.find(unit); found != units.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [name, factor] : units) known.push_back(name);
+  reader.fail("unit", fmt::format("`{}` is not one of {}", unit, fmt::join(known, ", ")));
+}
+
+ForeignColumn parse_time(TomlReader reader) {
+  ForeignColumn time;
+  time.column = reader.text("column");
+  time.factor = factor_of(reader, time_units);
+  time.offset = reader.number_or("offset_s", 0) / time.factor;
+  reader.finish();
+  return time;
+}
+
+ForeignColumn parse_column(TomlReader& reader, const Case& c) {
+  const std::string name = reader.text("sensor");
+  const CaseSensor* sensor = c.find_sensor(name);
+  if (sensor == nullptr) {
+    std::vector<std::string> known;
+    for (const CaseSensor& s : c.sensors) known.push_back(s.name);
+    reader.fail("sensor",
+                fmt::format("the case {} has no sensor `{}`; it has {}", c.name, name, fmt::join(known, ", ")));
+  }
+  ForeignColumn column;
+  column.column = reader.text("column");
+  column.factor = factor_of(reader, sensor->kind == SensorKind::pressure ? pressure_units : length_units);
+  column.offset = reader.number_or("offset", 0);
+  column.target = probe_column(*sensor);
+  reader.finish();
+  return column;
+}
+
+char parse_separator(TomlReader& reader) {
+  const std::string text = reader.text_or("separator", ",");
+  if (text == "tab") return '\t';
+  if (text == "blank") return ' ';
+  if (text == "," || text == ";") return text[0];
+  reader.fail("separator", fmt::format("`{}` is not one of \",\", \";\", \"tab\", \"blank\"", text));
+}
+
+ForeignFile parse_file(TomlReader& reader, const Case& c, const fs::path& folder) {
+  ForeignFile f;
+  f.file = folder / reader.text("file");
+  f.separator = parse_separator(reader);
+  f.decimal_comma = reader.flag_or("decimal_comma", false);
+  f.skip_incomplete_rows = reader.flag_or("skip_incomplete_rows", false);
+  f.header_lines = reader.has("header_lines") ? reader.integer("header_lines") : 1;
+  if (f.header_lines < 0) reader.fail("header_lines", "is negative");
+  if (f.decimal_comma && f.separator == ',')
+    reader.fail("decimal_comma",
+                "commas cannot both separate columns and stand in numbers (say which separator it is)");
+  f.time = parse_time(reader.table("time"));
+  for (TomlReader& column : reader.tables("columns")) f.columns.push_back(parse_column(column, c));
+  reader.finish();
+  return f;
+}
+
+/// Column numbers, from 0 on, in the order of the file's columns; by name or by number.
+std::size_t index_of(const TextTableReader& reader, const std::vector<std::string>& names, const std::string& column) {
+  if (const auto found = std::find(names.begin(), names.end(), column); found != names.end()) {
+    if (std::find(found + 1, names.end(), column) != names.end())
+      reader.fail(fmt::format("column \"{}\" occurs twice; give its number", column));
+    return static_cast<std::size_t>(found - names.begin());
+  }
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(column.data(), column.data() + column.size(), number);
+  if (error == std::errc{} && end == column.data() + column.size() && number >= 1 && number <= names.size())
+    return number - 1;
+  reader.fail(fmt::format("no column \"{}\"; there are {}: {} (is the separator right?)", column, names.size(),
+                          fmt::join(names, " | ")));
+}
+
+/// Names of the columns: of the last header line, or numbers where there is none.
+std::vector<std::string> column_names(TextTableReader& reader, const ForeignFile& f) {
+  std::string line;
+  for (int k = 0; k < f.header_lines; ++k) line = reader.next_header_line();
+  if (f.header_lines > 0) return split_fields(line, f.separator);
+  std::vector<std::string> numbers(reader.count_fields(f.separator));
+  for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = std::to_string(k + 1);
+  return numbers;
+}
+
+void to_si(std::vector<double>& values, const ForeignColumn& column) {
+  for (double& v : values) v = (v + column.offset) * column.factor;
+}
+
+ProbeTable read_file(const ForeignFile& f, std::int64_t& skipped) {
+  TextTableReader reader(f.file);
+  const std::vector<std::string> names = column_names(reader, f);
+  const std::size_t time = index_of(reader, names, f.time.column);
+  std::vector<std::size_t> wanted{time};
+  for (const ForeignColumn& column : f.columns) wanted.push_back(index_of(reader, names, column.column));
+  auto columns = reader.read_rows(names, {f.separator, f.decimal_comma, wanted, f.skip_incomplete_rows}, time);
+  skipped += reader.skipped();
+  auto times = std::move(columns[time]);
+  to_si(times, f.time);
+  if (times.empty()) throw std::runtime_error(fmt::format("{}: holds no row behind its header", f.file.string()));
+  std::vector<std::string> targets;
+  std::vector<std::vector<double>> values;
+  for (std::size_t k = 0; k < f.columns.size(); ++k) {
+    targets.push_back(f.columns[k].target);
+    values.push_back(columns[wanted[k + 1]]);  // a copy: one column may feed two sensors
+    to_si(values.back(), f.columns[k]);
+  }
+  return {f.file, std::move(targets), std::move(times), std::move(values)};
+}
+
+/// Rows first .. last - 1 of the first table, and the others' series at their times.
+ProbeTable joined(const ForeignMap& map, const std::vector<ProbeTable>& tables) {
+  double begin_s = tables.front().times_s().front();
+  double end_s = tables.front().times_s().back();
+  for (const ProbeTable& t : tables) {
+    begin_s = std::max(begin_s, t.times_s().front());
+    end_s = std::min(end_s, t.times_s().back());
+  }
+  std::vector<double> times;
+  for (const double t : tables.front().times_s())
+    if (t >= begin_s && t <= end_s) times.push_back(t);
+  if (times.empty())
+    throw std::runtime_error(fmt::format(
+        "{}: its files have no time in common (are the units and offsets of time right?)", map.map.string()));
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+  for (const ProbeTable& t : tables) {
+    for (const std::string& name : t.names()) {
+      names.push_back(name);
+      columns.push_back(values_at({t.times_s(), t.values(name)}, times));
+    }
+  }
+  return {map.map, std::move(names), std::move(times), std::move(columns)};
+}
+
+void refuse_repeated_sensors(const ForeignMap& map) {
+  std::set<std::string> seen;
+  for (const ForeignFile& f : map.files)
+    for (const ForeignColumn& column : f.columns)
+      if (!seen.insert(column.target).second)
+        throw CaseError(fmt::format("{}: {} is given twice (one column a sensor)", map.map.string(), column.target));
+}
+
+}  // namespace
+
+ForeignMap load_foreign_map(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) throw CaseError(fmt::format("{}: cannot be read", path.string()));
+  toml::table table;
+  try {
+    table = toml::parse(text.str(), path.string());
+  } catch (const toml::parse_error& error) {
+    throw_case_error(path.string(), static_cast<int>(error.source().begin.line), "syntax", error.description());
+  }
+  TomlReader reader(table, path.string());
+  ForeignMap map;
+  map.map = path;
+  map.case_name = reader.text("case");
+  map.solver = reader.text("solver");
+  map.l0_m = reader.positive_number("l0_m");
+  const Case c = load_case(map.case_name);
+  for (TomlReader& file : reader.tables("files")) map.files.push_back(parse_file(file, c, path.parent_path()));
+  reader.finish();
+  refuse_repeated_sensors(map);
+  return map;
+}
+
+ProbeTable read_foreign(const ForeignMap& map, std::int64_t* skipped) {
+  std::vector<ProbeTable> tables;
+  std::int64_t left_out = 0;
+  for (const ForeignFile& f : map.files) tables.push_back(read_file(f, left_out));
+  if (skipped != nullptr) *skipped = left_out;
+  return tables.size() == 1 ? std::move(tables.front()) : joined(map, tables);
+}
+
+void import_foreign(const ForeignMap& map, const fs::path& directory) {
+  std::int64_t skipped = 0;
+  const ProbeTable table = read_foreign(map, &skipped);
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw std::runtime_error(fmt::format("{}: cannot be made ({})", directory.string(), error.message()));
+  write_probes(directory / "probes.csv", table);
+  nlohmann::json sources = nlohmann::json::array();
+  for (const ForeignFile& f : map.files)
+    sources.push_back({{"file", f.file.filename().string()}, {"hash", file_hash(f.file)}});
+  nlohmann::json warnings = nlohmann::json::array();
+  if (skipped > 0) warnings.push_back(fmt::format("{} incomplete rows of its files were left out", skipped));
+  write_manifest(directory, {{"case", map.case_name},
+                             {"solver", map.solver},
+                             {"l0_m", map.l0_m},
+                             {"imported_from", sources},
+                             {"warnings", warnings},
+                             {"map_hash", file_hash(map.map)}});
+}
+
+}  // namespace sluice

@@ -1,0 +1,63 @@
+// Results of another code in files of its own form, and the small map that says which of their columns is which sensor.
+//
+//   case = "kleefsman"
+//   solver = "interFoam"                  # as it shall stand in tables
+//   l0_m = 0.02                           # particle distance or mesh width
+//   [[files]]                             # one or several
+//   file = "gauges.csv"                   # relative to the map
+//   separator = ";"                       # "," (default), ";", "tab" or "blank"
+//   decimal_comma = true                  # default: false
+//   skip_incomplete_rows = true           # default: false, an empty or NaN field is an error
+//   header_lines = 1                      # default 1; the last of them names the columns
+//   time = { column = "Time [s]", unit = "s", offset_s = 0.0 }
+//   columns = [ { sensor = "P1", column = "Press_0", unit = "kPa", offset = 0.0 } ]
+//
+// A column is named as in the header line, or counted from 1 on. Values become SI; `offset` is added first, in the
+// column's own unit. Series of later files are interpolated to the times of the first within the range of both.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "validation/case.h"
+#include "validation/series.h"
+
+namespace sluice {
+
+struct ForeignColumn {
+  std::string column;  ///< its name or, as digits, its number from 1 on
+  double factor = 1;   ///< to the SI unit
+  double offset = 0;   ///< added before, in the column's unit
+  std::string target;  ///< column of probes.csv, such as "P1_Pa"; empty for time
+};
+
+struct ForeignFile {
+  std::filesystem::path file;
+  char separator = ',';
+  bool decimal_comma = false;
+  bool skip_incomplete_rows = false;
+  int header_lines = 1;
+  ForeignColumn time;
+  std::vector<ForeignColumn> columns;
+};
+
+struct ForeignMap {
+  std::filesystem::path map;
+  std::string case_name;
+  std::string solver;
+  double l0_m = 0;
+  std::vector<ForeignFile> files;
+};
+
+/// Throws CaseError `file:line: key: message`: unknown keys, sensors that the case has not, units that do not fit.
+ForeignMap load_foreign_map(const std::filesystem::path& map);
+
+/// Reads the files into one table; `skipped` counts rows that were left out as incomplete. Throws std::runtime_error
+/// `file:line: message`: no such file or column, not a number, times that do not increase, rows of another length.
+ProbeTable read_foreign(const ForeignMap& map, std::int64_t* skipped = nullptr);
+
+/// Writes a run directory (run.json, probes.csv) that every report takes. Throws as above.
+void import_foreign(const ForeignMap& map, const std::filesystem::path& directory);
+
+}  // namespace sluice

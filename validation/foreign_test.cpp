@@ -1,0 +1,165 @@
+#include "validation/foreign.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "validation/run_directory.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::DoubleEq;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ForeignTest : public testing::Test {
+ protected:
+  ForeignTest() {
+    directory = fs::temp_directory_path() /
+                (std::string("sluice-foreign-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(directory);
+    fs::create_directories(directory);
+  }
+  ~ForeignTest() override { fs::remove_all(directory); }
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(directory / name) << text; }
+  ProbeTable read(const std::string& files) const {
+    write("m.toml", "case = \"kleefsman\"\nsolver = \"other\"\nl0_m = 0.02\n" + files);
+    return read_foreign(load_foreign_map(directory / "m.toml"));
+  }
+  std::string refusal(const std::string& files) const {
+    try {
+      read(files);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  fs::path directory;
+};
+
+const char* const plain = R"([[files]]
+file = "a.csv"
+time = { column = "time_s", unit = "s" }
+columns = [ { sensor = "P1", column = "P1_Pa", unit = "Pa" }, { sensor = "H2", column = "H2_m", unit = "m" } ]
+)";
+
+TEST_F(ForeignTest, ColumnsAreFoundByNameAndOthersMayHoldAnything) {
+  write("a.csv", "time_s,remark,H2_m,P1_Pa\n0,dry,0.0,5\n0.5,wet,0.1,7.5\n");
+  const ProbeTable t = read(plain);
+  EXPECT_THAT(t.names(), ElementsAre("P1_Pa", "H2_m"));
+  EXPECT_THAT(t.times_s(), ElementsAre(0, 0.5));
+  EXPECT_THAT(t.values("P1_Pa"), ElementsAre(5, 7.5));
+  EXPECT_THAT(t.values("H2_m"), ElementsAre(0, 0.1));
+}
+
+TEST_F(ForeignTest, UnitsOffsetsSemicolonsAndDecimalCommas) {
+  write("g.csv", " ;PosX [m]:;0,8245\n ;PosZ [m]:;0,021\nPart;Time [ms];Press_0 [kPa]\n0;0,0;101,325\n1;2,5;102,325\n");
+  const ProbeTable t = read(R"([[files]]
+file = "g.csv"
+separator = ";"
+decimal_comma = true
+header_lines = 3
+time = { column = "Time [ms]", unit = "ms", offset_s = 0.1 }
+columns = [ { sensor = "P1", column = "Press_0 [kPa]", unit = "kPa", offset = -101.325 } ]
+)");
+  EXPECT_THAT(t.times_s(), ElementsAre(DoubleEq(0.1), DoubleEq(0.1025)));
+  EXPECT_NEAR(t.values("P1_Pa")[0], 0, 1e-9);
+  EXPECT_NEAR(t.values("P1_Pa")[1], 1000, 1e-9);
+}
+
+TEST_F(ForeignTest, BlanksAndNumbersForNames) {
+  write("a.dat", "0.0   10  1\n0.1\t20  2\n");
+  const ProbeTable t = read(R"([[files]]
+file = "a.dat"
+separator = "blank"
+header_lines = 0
+time = { column = "1", unit = "s" }
+columns = [ { sensor = "P2", column = "3", unit = "hPa" } ]
+)");
+  EXPECT_THAT(t.values("P2_Pa"), ElementsAre(100, 200));
+}
+
+TEST_F(ForeignTest, SeveralFilesMeetAtTheTimesOfTheFirst) {
+  write("a.csv", "t,p\n0,1\n1,2\n2,3\n3,4\n");
+  write("b.csv", "t,h\n0.5,10\n2.5,30\n");
+  const ProbeTable t = read(R"([[files]]
+file = "a.csv"
+time = { column = "t", unit = "s" }
+columns = [ { sensor = "P1", column = "p", unit = "Pa" } ]
+[[files]]
+file = "b.csv"
+time = { column = "t", unit = "s" }
+columns = [ { sensor = "H1", column = "h", unit = "mm" } ]
+)");
+  EXPECT_THAT(t.times_s(), ElementsAre(1, 2));
+  EXPECT_THAT(t.values("P1_Pa"), ElementsAre(2, 3));
+  EXPECT_NEAR(t.values("H1_m")[0], 0.015, 1e-12);
+}
+
+TEST_F(ForeignTest, BadFilesAreRefusedByLine) {
+  EXPECT_THAT(refusal(plain), AllOf(HasSubstr("a.csv"), HasSubstr("cannot be opened")));
+  write("a.csv", "");
+  EXPECT_THAT(refusal(plain), HasSubstr("empty"));
+  write("a.csv", "time_s,P1_Pa,H2_m\n");
+  EXPECT_THAT(refusal(plain), HasSubstr("no row"));
+  write("a.csv", "time_s,P1_Pa\n0,1\n");
+  EXPECT_THAT(refusal(plain), AllOf(HasSubstr("a.csv:1"), HasSubstr("no column \"H2_m\"")));
+  write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0\n0.1,nan,0\n");
+  EXPECT_THAT(refusal(plain), AllOf(HasSubstr("a.csv:3"), HasSubstr("P1_Pa")));
+  write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0\n0.2,1,0\n0.1,1,0\n");
+  EXPECT_THAT(refusal(plain), AllOf(HasSubstr("a.csv:4"), HasSubstr("sort the rows")));
+  write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0\n0,1,0\n");
+  EXPECT_THAT(refusal(plain), AllOf(HasSubstr("a.csv:3"), HasSubstr("repeated")));
+  write("a.csv", "time_s;P1_Pa;H2_m\n0;1;0\n");
+  EXPECT_THAT(refusal(plain), AllOf(HasSubstr("a.csv:1"), HasSubstr("separator")));
+  write("a.csv", "time_s,P1_Pa,H2_m\n0;1,0\n");
+  EXPECT_THAT(refusal(plain), HasSubstr("a.csv:2"));
+  write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0,7\n");
+  EXPECT_THAT(refusal(plain), AllOf(HasSubstr("a.csv:2"), HasSubstr("4 fields")));
+}
+
+TEST_F(ForeignTest, GapsAreLeftOutOnRequestAndTold) {
+  write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0\n0.1,,0.1\n0.2,3,NaN\n0.3,4,0.3\n");
+  EXPECT_THAT(refusal(plain), HasSubstr("a.csv:3"));
+  std::string text = plain;
+  text.insert(text.find("time ="), "skip_incomplete_rows = true\n");
+  EXPECT_THAT(read(text).times_s(), ElementsAre(0, 0.3));
+  import_foreign(load_foreign_map(directory / "m.toml"), directory / "run");
+  EXPECT_EQ(read_run(directory / "run").manifest.at("warnings").at(0), "2 incomplete rows of its files were left out");
+}
+
+TEST_F(ForeignTest, BadMapsAreRefusedByLineAndKey) {
+  write("a.csv", "t,p\n0,1\n1,2\n");
+  const auto with = [](const std::string& column) {
+    return "[[files]]\nfile = \"a.csv\"\ntime = { column = \"t\", unit = \"s\" }\ncolumns = [ " + column + " ]\n";
+  };
+  EXPECT_THAT(refusal(with("{ sensor = \"P9\", column = \"p\", unit = \"Pa\" }")),
+              AllOf(HasSubstr("m.toml:7"), HasSubstr("P9")));
+  EXPECT_THAT(refusal(with("{ sensor = \"P1\", column = \"p\", unit = \"m\" }")), HasSubstr("kPa"));
+  EXPECT_THAT(refusal(with("{ sensor = \"P1\", column = \"p\" }")), HasSubstr("unit"));
+  EXPECT_THAT(
+      refusal(with("{ sensor = \"P1\", column = \"p\", unit = \"Pa\" }, { sensor = \"P1\", column = \"p\", unit "
+                   "= \"Pa\" }")),
+      HasSubstr("given twice"));
+  EXPECT_THAT(refusal("[[files]]\nfile = \"a.csv\"\ndecimal_comma = true\n"), HasSubstr("decimal_comma"));
+}
+
+TEST_F(ForeignTest, AnImportedRunReadsLikeAnyOther) {
+  write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0\n0.1,2,0.1\n");
+  read(plain);
+  import_foreign(load_foreign_map(directory / "m.toml"), directory / "run");
+  const RunRecord run = read_run(directory / "run");
+  EXPECT_EQ(run.solver, "other");
+  EXPECT_FALSE(run.own);
+  EXPECT_THAT(run.probes.values("P1_Pa"), ElementsAre(1, 2));
+  EXPECT_TRUE(run.manifest.at("imported_from").at(0).contains("hash"));
+}
+
+}  // namespace
+}  // namespace sluice

@@ -173,27 +173,27 @@ void refuse_repeated_sensors(const ForeignMap& map) {
 
 }  // namespace
 
-ForeignMap load_foreign_map(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
+ForeignMap load_foreign_map(const fs::path& map) {
+  std::ifstream in(map, std::ios::binary);
   std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) throw CaseError(fmt::format("{}: cannot be read", path.string()));
+  if (!in || !(text << in.rdbuf())) throw CaseError(fmt::format("{}: cannot be read", map.string()));
   toml::table table;
   try {
-    table = toml::parse(text.str(), path.string());
+    table = toml::parse(text.str(), map.string());
   } catch (const toml::parse_error& error) {
-    throw_case_error(path.string(), static_cast<int>(error.source().begin.line), "syntax", error.description());
+    throw_case_error(map.string(), static_cast<int>(error.source().begin.line), "syntax", error.description());
   }
-  TomlReader reader(table, path.string());
-  ForeignMap map;
-  map.map = path;
-  map.case_name = reader.text("case");
-  map.solver = reader.text("solver");
-  map.l0_m = reader.positive_number("l0_m");
-  const Case c = load_case(map.case_name);
-  for (TomlReader& file : reader.tables("files")) map.files.push_back(parse_file(file, c, path.parent_path()));
+  TomlReader reader(table, map.string());
+  ForeignMap foreign;
+  foreign.map = map;
+  foreign.case_name = reader.text("case");
+  foreign.solver = reader.text("solver");
+  foreign.l0_m = reader.positive_number("l0_m");
+  const Case c = load_case(foreign.case_name);
+  for (TomlReader& file : reader.tables("files")) foreign.files.push_back(parse_file(file, c, map.parent_path()));
   reader.finish();
-  refuse_repeated_sensors(map);
-  return map;
+  refuse_repeated_sensors(foreign);
+  return foreign;
 }
 
 ProbeTable read_foreign(const ForeignMap& map, std::int64_t* skipped) {

@@ -110,25 +110,25 @@ RunOutcome run_case(const Case& c, const RunSettings& settings, const RunOptions
   return run->execute();
 }
 
-RunOutcome resume_run(const fs::path& directory, const ResumeOptions& resume) {
+RunOutcome resume_run(const fs::path& directory, const ResumeOptions& options) {
   RunHeader header = header_of(directory);
   const Case c = load_case(header.case_file);
   refuse_changed_case(c, header);
-  if (resume.threads > 0) header.settings.threads = resume.threads;
-  RunOptions options;
-  options.out = directory;
-  options.progress = resume.progress;
-  options.terminal = resume.terminal;
-  options.checkpoint_every_s = resume.checkpoint_every_s;
-  options.factory = resume.factory;
+  if (options.threads > 0) header.settings.threads = options.threads;
+  RunOptions run_options;
+  run_options.out = directory;
+  run_options.progress = options.progress;
+  run_options.terminal = options.terminal;
+  run_options.checkpoint_every_s = options.checkpoint_every_s;
+  run_options.factory = options.factory;
   refuse_if_too_large(c, header.settings, plan_run(c, header.settings),
-                      resume.available_memory_bytes ? resume.available_memory_bytes : available_memory_bytes());
+                      options.available_memory_bytes ? options.available_memory_bytes : available_memory_bytes());
   RunLog log(directory / "log.txt", true);
   const InterruptGuard guard;
-  const auto run = begin(c, header.settings, options, log, header.point);
-  say(options, log, "resumed: " + what_runs(c, header.settings, directory));
+  const auto run = begin(c, header.settings, run_options, log, header.point);
+  say(run_options, log, "resumed: " + what_runs(c, header.settings, directory));
   if (header.commit != build_info().commit)
-    say(options, log,
+    say(run_options, log,
         fmt::format("warning: begun by another build ({}; this is {}): the results may differ from those of either\n",
                     header.commit, build_info().commit));
   return run->execute();

@@ -72,7 +72,7 @@ FluidTotals WcsphSolver<Pack>::totals() const {
                                 parameters_.gravity_m_s2);
   if (fluid_.n == 0) return totals;
   const auto first = fluid_.density.begin();
-  const double deviation = static_cast<double>(*std::max_element(first, first + static_cast<std::ptrdiff_t>(fluid_.n)));
+  const auto deviation = static_cast<double>(*std::max_element(first, first + static_cast<std::ptrdiff_t>(fluid_.n)));
   totals.greatest_density_ratio = 1 + deviation / parameters_.reference_density_kg_m3;
   return totals;
 }

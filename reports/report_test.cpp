@@ -143,6 +143,35 @@ TEST(ReportTables, LabelsSayWhatARunHasSetOtherwiseThanTheCase) {
       << "friction 0 is the walls' own default";
 }
 
+TEST(ReportTables, ThePapersStatementsAreJudgedByTheRuns) {
+  const fs::path wcsph = fresh("statements_wcsph");
+  const fs::path viscous = fresh("statements_viscous");
+  const fs::path mps = fresh("statements_mps");
+  MadeRun run;
+  run.alpha = 0.001;
+  run.scale = 0.9;
+  synthetic::write_run(wcsph, run);
+  const Table alone = conclusions_table(analyse({wcsph}));
+  ASSERT_EQ(alone.rows.size(), 5U);
+  EXPECT_EQ(alone.rows[0].cells[3].text, "missing");
+  EXPECT_EQ(alone.rows[1].cells[3].text, "agrees") << "all too low";
+  run.alpha = 0.1;
+  run.scale = 0.7;
+  synthetic::write_run(viscous, run);
+  run = {};
+  run.solver = "mps";
+  run.walls = "dummies";
+  run.scale = 1.2;
+  synthetic::write_run(mps, run);
+  const Table table = conclusions_table(analyse({wcsph, viscous, mps}));
+  EXPECT_EQ(table.rows[0].cells[1].text, "MPS 7.8 %, WCSPH 24.1 % to 36.2 %");
+  EXPECT_EQ(table.rows[0].cells[3].text, "does not agree") << "20 % against 10 %";
+  EXPECT_EQ(table.rows[2].cells[3].text, "agrees") << table.rows[2].cells[2].text;
+  EXPECT_EQ(table.rows[3].cells[1].text, "1.8 times");
+  EXPECT_EQ(table.rows[3].cells[3].text, "does not agree") << "the same cost";
+  EXPECT_EQ(table.rows[4].cells[1].text, "7.9 times");
+}
+
 TEST(ReportTables, UnitsThatCannotBeRightAreDoubted) {
   const fs::path dir = fresh("units");
   synthetic::write_external_run(dir, 1000.0);

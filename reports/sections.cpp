@@ -176,6 +176,13 @@ ReportSection acceptance_section(const ReportData& data) {
   return section;
 }
 
+void add_conclusions_section(std::vector<ReportSection>& sections, const ReportData& data) {
+  if (data.the_case.published.impulses.empty()) return;
+  ReportSection section{"conclusions", "The paper's statements", {}};
+  section.blocks.push_back(conclusions_table(data));
+  sections.push_back(std::move(section));
+}
+
 ReportSection conservation_section(const FigureMaker& maker) {
   ReportSection section{"conservation", "Energy and compression", {}};
   append(section, conservation_figures(maker));
@@ -235,6 +242,7 @@ std::vector<ReportSection> report_sections(const FigureMaker& maker, bool snapsh
   add_alpha_section(sections, maker);
   add_resolution_section(sections, maker);
   if (snapshots && maker.enabled) add_snapshot_section(sections, maker);
+  add_conclusions_section(sections, data);
   sections.push_back(conservation_section(maker));
   sections.push_back(acceptance_section(data));
   sections.push_back(cost_section(maker));

@@ -44,6 +44,9 @@ Table alpha_table(const ReportData& data);
 /// Errors against the particle distance with the observed order.
 Table resolution_table(const ReportData& data);
 
+/// The paper's statements with its evidence, ours, and a verdict.
+Table conclusions_table(const ReportData& data);
+
 /// The case's acceptance rows, evaluated for every run that they apply to.
 Table acceptance_matrix(const ReportData& data);
 /// How many rows passed and failed over all runs.

@@ -7,10 +7,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "solvers/state_archive.h"
 
@@ -40,7 +43,6 @@ class Handle {
   Handle& operator=(Handle&&) = delete;
   operator hid_t() const { return id_; }
   bool valid() const { return id_ >= 0; }
-  herr_t close() { return close_(std::exchange(id_, -1)); }
 
  private:
   hid_t id_;
@@ -93,7 +95,7 @@ class FileArchive final : public StateArchive {
     const Handle set(H5Dcreate2(file_, name.c_str(), type_of<T>(), space, H5P_DEFAULT, settings, H5P_DEFAULT),
                      H5Dclose);
     if (!set.valid() || (n > 0 && H5Dwrite(set, type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, v.data()) < 0))
-      fail(path_, fmt::format("{} cannot be written (is the disk full?)", name));
+      fail(path_, fmt::format("{} cannot be put into the checkpoint (out of memory?)", name));
   }
 
   template <class T>
@@ -135,25 +137,63 @@ class FileArchive final : public StateArchive {
   bool restoring_;
 };
 
-void write_file(const fs::path& file, const nlohmann::json& header, Solver& solver) {
-  Handle h5(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-  if (!h5.valid())
-    fail(file, "cannot be made: check that its folder exists and is writable, and that the disk has room");
+/// The file's bytes, made in memory: a file that HDF5 itself cannot bring to a full disk stays open in the library for
+/// good.
+std::vector<std::byte> file_image(const fs::path& file, const nlohmann::json& header, Solver& solver) {
+  constexpr std::size_t increment = std::size_t{16} << 20;
+  const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(in_memory, increment, false);
+  const Handle h5(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose);
+  if (!h5.valid()) fail(file, "cannot be made in memory");
   FileArchive archive(file, h5, false);
   std::string identity = fmt::format("{} {}", format_name, checkpoint_schema);
   std::string text = header.dump();
   archive.write("format", std::span(identity));
   archive.write("header", std::span(text));
   solver.visit_state(archive);
-  if (H5Fflush(h5, H5F_SCOPE_GLOBAL) < 0 || h5.close() < 0) fail(file, "cannot be written (is the disk full?)");
+  const ssize_t size = H5Fflush(h5, H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(h5, nullptr, 0);
+  if (size <= 0) fail(file, "cannot be made in memory");
+  std::vector<std::byte> image(static_cast<std::size_t>(size));
+  if (H5Fget_file_image(h5, image.data(), image.size()) != size) fail(file, "cannot be made in memory");
+  return image;
 }
 
-void bring_to_disk(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY);
-  const bool done = descriptor >= 0 && ::fsync(descriptor) == 0;
-  const int cause = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!done) fail(path, fmt::format("cannot be brought to disk ({})", std::generic_category().message(cause)));
+/// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags) : id_(::open(path.c_str(), flags, 0644)) {}
+  ~Descriptor() {
+    if (id_ >= 0) ::close(id_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int id() const { return id_; }
+
+ private:
+  int id_;
+};
+
+[[noreturn]] void fail_with_cause(const fs::path& path, const char* what) {
+  fail(path, fmt::format("{} ({}); free space on that disk or write to another one", what,
+                         std::generic_category().message(errno)));
+}
+
+void write_file(const fs::path& file, std::span<const std::byte> image) {
+  const Descriptor out(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
+  if (out.id() < 0) fail_with_cause(file, "cannot be made");
+  while (!image.empty()) {
+    const ssize_t written = ::write(out.id(), image.data(), image.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail_with_cause(file, "cannot be written");
+    image = image.subspan(static_cast<std::size_t>(written));
+  }
+  if (::fsync(out.id()) != 0) fail_with_cause(file, "cannot be brought to disk");
+}
+
+/// A rename is on disk when its folder is.
+void bring_folder_to_disk(const fs::path& folder) {
+  const Descriptor in(folder, O_RDONLY | O_CLOEXEC);
+  if (in.id() < 0 || ::fsync(in.id()) != 0) fail_with_cause(folder, "cannot be brought to disk");
 }
 
 std::string text_of(const FileArchive& archive, const std::string& name) {
@@ -185,10 +225,9 @@ void write_checkpoint(const fs::path& file, const nlohmann::json& header, Solver
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const fs::path part = file.string() + ".part";
   try {
-    write_file(part, header, solver);
-    bring_to_disk(part);
+    write_file(part, file_image(file, header, solver));
     fs::rename(part, file);
-    bring_to_disk(fs::absolute(file).parent_path());
+    bring_folder_to_disk(fs::absolute(file).parent_path());
   } catch (...) {
     std::error_code ignored;
     fs::remove(part, ignored);

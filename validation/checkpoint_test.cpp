@@ -132,8 +132,15 @@ TEST_F(CheckpointTest, AFailedWriteLeavesTheOlderOne) {
   write_checkpoint(file, {{"a", 1}}, solver);
   const std::string older = contents(file);
   fs::create_symlink("/dev/full", file.string() + ".part");
-  EXPECT_THROW(write_checkpoint(file, {{"a", 2}}, solver), std::runtime_error);
+  try {
+    write_checkpoint(file, {{"a", 2}}, solver);
+    FAIL() << "written to a full disk";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("No space left"));
+  }
   EXPECT_EQ(contents(file), older);
+  write_checkpoint(file, {{"a", 3}}, solver);  // there is room again
+  EXPECT_EQ(read_checkpoint_header(file).at("a"), 3);
 }
 
 // A run that is interrupted and resumed, with the fake solver.

@@ -126,9 +126,8 @@ std::string changed_parameters(const RunRecord& run, const Case& c) {
   const SolverOption* solver = c.find_solver(run.solver);
   if (!run.own || solver == nullptr) return "";
   std::map<std::string, double> defaults = solver->parameters;
-  for (const WallOption& walls : solver->walls)
-    if (walls.name == run.walls)
-      for (const auto& [name, value] : walls.parameters) defaults[name] = value;
+  if (const WallOption* walls = find_walls(*solver, run.walls); walls != nullptr)
+    for (const auto& [name, value] : walls->parameters) defaults[name] = value;
   defaults.erase("alpha");
   std::string changed;
   for (const auto& [name, value] : defaults)

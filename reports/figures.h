@@ -21,6 +21,11 @@ struct FigureMaker {
 Picture draw_picture(const FigureMaker& maker, const PlotFigure& figure, const std::string& caption,
                      const std::string& description, bool wide = false);
 
+/// Curves of runs in one panel: more cannot be told apart.
+inline constexpr std::size_t runs_a_panel = 5;
+/// A run's series over a window, times `unit`, thinned for drawing.
+PlotCurve run_curve(const AnalysedRun& run, const Series& series, Window window, int style, double unit);
+
 /// The whole window: wave heights as they are, pressures after a 10 ms running mean; one panel a group of runs.
 std::vector<Picture> series_figures(const FigureMaker& maker, SensorKind kind);
 /// The same wave heights as read by model `top`, where that is not the primary reading.

@@ -17,11 +17,19 @@ Picture draw_picture(const FigureMaker& maker, const PlotFigure& figure, const s
   return {figure.name, caption, description, std::filesystem::path("figures") / (figure.name + ".svg"), wide};
 }
 
+PlotCurve run_curve(const AnalysedRun& run, const Series& series, Window window, int style, double unit) {
+  constexpr int pixel_columns = 450;
+  PlotCurve curve;
+  curve.label = run.short_label;
+  curve.style = style;
+  std::tie(curve.x, curve.y) = thin_out(series.t_s, series.value, window.begin_s, window.end_s, pixel_columns);
+  for (double& y : curve.y) y *= unit;
+  return curve;
+}
+
 namespace {
 
-constexpr int pixel_columns = 450;
 constexpr double most_bins = 700;
-constexpr std::size_t runs_a_panel = 5;
 constexpr double smoothing_s = 0.01;
 /// Pressures are drawn up to this multiple of the measured peak: a water-hammer spike would hide everything else.
 constexpr double headroom = 1.5;
@@ -74,15 +82,6 @@ void add_experiment(PlotPanel& panel, const MeasuredSeries* measured, Window win
   }
   panel.bands.push_back(std::move(band));
   panel.curves.push_back(std::move(mean));
-}
-
-PlotCurve run_curve(const AnalysedRun& run, const Series& series, Window window, int style, double unit) {
-  PlotCurve curve;
-  curve.label = run.short_label;
-  curve.style = style;
-  std::tie(curve.x, curve.y) = thin_out(series.t_s, series.value, window.begin_s, window.end_s, pixel_columns);
-  for (double& y : curve.y) y *= unit;
-  return curve;
 }
 
 std::string axis_name(const std::string& sensor, SensorKind kind) {

@@ -51,18 +51,7 @@ std::string percent(double share) {
   return fixed(100 * share, 1) + " %";
 }
 
-/// The paper's own mean unsigned deviation over the headline sensors.
-std::optional<double> published_mean(const ReportData& data, const std::string& solver, std::optional<double> alpha) {
-  double sum = 0;
-  for (const std::string& sensor : data.headline_sensors()) {
-    const auto deviation = published_deviation(data, sensor, solver, alpha);
-    if (!deviation) return std::nullopt;
-    sum += std::abs(*deviation);
-  }
-  return sum / static_cast<double>(data.headline_sensors().size());
-}
-
-/// The same over the solver's printed alphas: smallest and largest.
+/// The paper's mean unsigned deviations over the solver's printed alphas: smallest and largest.
 std::optional<std::pair<double, double>> published_span(const ReportData& data, const std::string& solver) {
   std::vector<std::optional<double>> alphas;
   for (const PublishedImpulse& row : data.the_case.published.impulses)

@@ -131,4 +131,20 @@ std::optional<double> published_deviation(const ReportData& data, const std::str
   return relative_deviation(value, experiment);
 }
 
+std::optional<double> published_mean(const ReportData& data, const std::string& solver, std::optional<double> alpha) {
+  double sum = 0;
+  for (const std::string& sensor : data.headline_sensors()) {
+    const auto deviation = published_deviation(data, sensor, solver, alpha);
+    if (!deviation) return std::nullopt;
+    sum += std::abs(*deviation);
+  }
+  return sum / static_cast<double>(data.headline_sensors().size());
+}
+
+const PublishedRun* published_run(const Case& c, const std::string& solver) {
+  for (const PublishedRun& run : c.published.runs)
+    if (run.solver == solver) return &run;
+  return nullptr;
+}
+
 }  // namespace sluice

@@ -44,4 +44,10 @@ std::vector<ResolutionQuantity> resolution_quantities(const ReportData& data, co
 std::optional<double> published_deviation(const ReportData& data, const std::string& sensor, const std::string& source,
                                           std::optional<double> alpha);
 
+/// The mean of its unsigned deviations over the headline sensors; missing when one of them is.
+std::optional<double> published_mean(const ReportData& data, const std::string& solver, std::optional<double> alpha);
+
+/// The paper's run of a solver; nullptr when it prints none.
+const PublishedRun* published_run(const Case& c, const std::string& solver);
+
 }  // namespace sluice

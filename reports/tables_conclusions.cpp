@@ -36,24 +36,9 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Mean unsigned deviation that the paper prints for a solver, over the headline sensors.
-std::optional<double> published_error(const ReportData& data, const std::string& solver, std::optional<double> alpha) {
-  std::vector<double> all;
-  for (const std::string& sensor : data.headline_sensors())
-    if (const auto deviation = published_deviation(data, sensor, solver, alpha)) all.push_back(std::abs(*deviation));
-  return all.empty() ? std::nullopt : std::optional(mean(all));
-}
-
 std::vector<double> published_alphas(const ReportData& data) {
-  for (const PublishedRun& run : data.the_case.published.runs)
-    if (run.solver == "wcsph") return run.alpha;
-  return {};
-}
-
-const PublishedRun* published_run(const ReportData& data, const std::string& solver) {
-  for (const PublishedRun& run : data.the_case.published.runs)
-    if (run.solver == solver) return &run;
-  return nullptr;
+  const PublishedRun* run = published_run(data.the_case, "wcsph");
+  return run == nullptr ? std::vector<double>{} : run->alpha;
 }
 
 /// MPS and WCSPH runs of the finest particle distance that has both.
@@ -97,8 +82,8 @@ std::pair<std::optional<double>, const AnalysedRun*> least(const std::vector<con
 void add_accuracy(Table& table, const ReportData& data) {
   std::vector<double> wcsph;
   for (const double alpha : published_alphas(data))
-    if (const auto error = published_error(data, "wcsph", alpha)) wcsph.push_back(*error);
-  const auto mps = published_error(data, "mps", std::nullopt);
+    if (const auto error = published_mean(data, "wcsph", alpha)) wcsph.push_back(*error);
+  const auto mps = published_mean(data, "mps", std::nullopt);
   std::string paper;
   if (mps && !wcsph.empty())
     paper = fmt::format("MPS {}, WCSPH {} to {}", percent(*mps), percent(*std::min_element(wcsph.begin(), wcsph.end())),
@@ -158,7 +143,7 @@ struct AlphaSides {
 
 void add_alpha(Table& table, const ReportData& data) {
   AlphaSides printed;
-  for (const double alpha : published_alphas(data)) printed.put(alpha, published_error(data, "wcsph", alpha));
+  for (const double alpha : published_alphas(data)) printed.put(alpha, published_mean(data, "wcsph", alpha));
   Evidence ours;
   ours.agrees = true;
   for (const AlphaSeries& series : alpha_series(data)) {
@@ -172,8 +157,8 @@ void add_alpha(Table& table, const ReportData& data) {
 }
 
 void add_costs(Table& table, const ReportData& data) {
-  const PublishedRun* mps = published_run(data, "mps");
-  const PublishedRun* wcsph = published_run(data, "wcsph");
+  const PublishedRun* mps = published_run(data.the_case, "mps");
+  const PublishedRun* wcsph = published_run(data.the_case, "wcsph");
   std::string cost_words;
   std::string step_words;
   double printed_steps = 0;

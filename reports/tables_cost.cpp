@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "reports/studies.h"
 #include "reports/tables.h"
 #include "reports/text.h"
 
@@ -15,12 +16,6 @@ std::optional<double> seconds_per_second(const AnalysedRun& run) {
   const auto time_s = run.record.number("time_s");
   if (!cost_s || !time_s || *time_s <= 0) return std::nullopt;
   return *cost_s / *time_s;
-}
-
-const PublishedRun* published_run(const Case& c, const std::string& solver) {
-  for (const PublishedRun& run : c.published.runs)
-    if (run.solver == solver) return &run;
-  return nullptr;
 }
 
 void add_pair(Table& table, TableCell mps, TableCell wcsph, double l0_m, std::optional<double> mps_s,

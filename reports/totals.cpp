@@ -12,8 +12,6 @@
 namespace sluice {
 namespace {
 
-constexpr int pixel_columns = 450;
-constexpr std::size_t runs_a_panel = 5;
 constexpr const char* compression_column = "greatest_density_ratio_1";
 
 /// Kinetic and potential energy together [J], or nothing where a run did not record them.
@@ -50,15 +48,6 @@ std::optional<double> greatest(const std::optional<Series>& series, double from_
   for (std::size_t i = 0; i < series->t_s.size(); ++i)
     if (series->t_s[i] >= from_s) most = std::max(most.value_or(series->value[i]), series->value[i]);
   return most;
-}
-
-PlotCurve curve_of(const AnalysedRun& run, const Series& series, Window window, double unit, int style) {
-  PlotCurve curve;
-  curve.label = run.short_label;
-  curve.style = style;
-  std::tie(curve.x, curve.y) = thin_out(series.t_s, series.value, window.begin_s, window.end_s, pixel_columns);
-  for (double& y : curve.y) y *= unit;
-  return curve;
 }
 
 }  // namespace
@@ -109,8 +98,8 @@ std::vector<Picture> conservation_figures(const FigureMaker& maker) {
       const auto e = energy(*run);
       const auto ratio = compression(*run);
       if (!e || !ratio) continue;
-      energies.curves.push_back(curve_of(*run, *e, maker.data.window, 100 / e->value.front(), style));
-      ratios.curves.push_back(curve_of(*run, *ratio, maker.data.window, 1, style++));
+      energies.curves.push_back(run_curve(*run, *e, maker.data.window, style, 100 / e->value.front()));
+      ratios.curves.push_back(run_curve(*run, *ratio, maker.data.window, style++, 1));
       source += (source.empty() ? "" : ", ") + run->label;
     }
     if (energies.curves.empty()) continue;

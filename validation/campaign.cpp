@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "validation/checkpoint.h"
 #include "validation/manifest.h"
@@ -123,16 +122,7 @@ bool comparable(const json& manifest, const RunSettings& s) {
 }  // namespace
 
 Campaign load_campaign(const fs::path& file, const fs::path& out, int threads) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf()))
-    throw CaseError(fmt::format("{}: cannot be read (give the path of a campaign's TOML file)", file.string()));
-  toml::table table;
-  try {
-    table = toml::parse(text.str(), file.string());
-  } catch (const toml::parse_error& error) {
-    throw_case_error(file.string(), static_cast<int>(error.source().begin.line), "syntax", error.description());
-  }
+  const toml::table table = parse_toml(read_text(file, "give the path of a campaign's TOML file"), file.string());
   TomlReader root(table, file.string());
   Campaign campaign;
   campaign.name = root.text("name");

@@ -9,6 +9,7 @@
 
 #include "validation/manifest.h"
 #include "validation/suggest.h"
+#include "validation/toml_reader.h"
 
 namespace sluice {
 namespace {
@@ -119,12 +120,7 @@ Case load_case(const std::string& name_or_path) {
       throw CaseError(fmt::format("no case `{}` in {}{}", name_or_path, case_directory().string(),
                                   suggestion(name_or_path, case_names())));
   }
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf()))
-    throw CaseError(
-        fmt::format("{}: cannot be read (give the name of a case or the path of its TOML file)", file.string()));
-  return parse_case(text.str(), file.string());
+  return parse_case(read_text(file, "give the name of a case or the path of its TOML file"), file.string());
 }
 
 }  // namespace sluice

@@ -205,12 +205,7 @@ Case parse_root(TomlReader root) {
 }  // namespace
 
 Case parse_case(std::string_view text, const std::string& file) {
-  toml::table table;
-  try {
-    table = toml::parse(text, file);
-  } catch (const toml::parse_error& error) {
-    throw_case_error(file, static_cast<int>(error.source().begin.line), "syntax", error.description());
-  }
+  const toml::table table = parse_toml(text, file);
   Case c = parse_root(TomlReader(table, file));
   c.file = file;
   c.hash = fmt::format("fnv1a64:{:016x}", fnv1a64(text));

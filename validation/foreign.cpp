@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "validation/curve.h"
 #include "validation/file_hash.h"
@@ -174,15 +172,7 @@ void refuse_repeated_sensors(const ForeignMap& map) {
 }  // namespace
 
 ForeignMap load_foreign_map(const fs::path& map) {
-  std::ifstream in(map, std::ios::binary);
-  std::ostringstream text;
-  if (!in || !(text << in.rdbuf())) throw CaseError(fmt::format("{}: cannot be read", map.string()));
-  toml::table table;
-  try {
-    table = toml::parse(text.str(), map.string());
-  } catch (const toml::parse_error& error) {
-    throw_case_error(map.string(), static_cast<int>(error.source().begin.line), "syntax", error.description());
-  }
+  const toml::table table = parse_toml(read_text(map, "give the path of a map's TOML file"), map.string());
   TomlReader reader(table, map.string());
   ForeignMap foreign;
   foreign.map = map;

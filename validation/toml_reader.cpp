@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "validation/case.h"
 #include "validation/suggest.h"
@@ -38,6 +40,21 @@ int line_of(const toml::node& node) {
 
 void throw_case_error(const std::string& file, int line, std::string_view key, std::string_view message) {
   throw CaseError(fmt::format("{}:{}: {}: {}", file, line, key, message));
+}
+
+toml::table parse_toml(std::string_view text, const std::string& file) {
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    throw_case_error(file, static_cast<int>(error.source().begin.line), "syntax", error.description());
+  }
+}
+
+std::string read_text(const std::filesystem::path& file, std::string_view remedy) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) throw CaseError(fmt::format("{}: cannot be read ({})", file.string(), remedy));
+  return text.str();
 }
 
 TomlReader::TomlReader(const toml::table& table, std::string file, std::string path)

@@ -1,6 +1,7 @@
 // Reads one TOML table strictly: wrong types, missing and unknown keys are errors that name file, line and key.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,12 @@ namespace sluice {
 
 /// Throws CaseError `file:line: key: message`.
 [[noreturn]] void throw_case_error(const std::string& file, int line, std::string_view key, std::string_view message);
+
+/// Throws CaseError `file:line: syntax: message`.
+toml::table parse_toml(std::string_view text, const std::string& file);
+
+/// The text of a file. Throws CaseError "file: cannot be read (remedy)".
+std::string read_text(const std::filesystem::path& file, std::string_view remedy);
 
 /// Remembers which keys were asked for, so that finish() can refuse the rest. The table must outlive the reader.
 class TomlReader {

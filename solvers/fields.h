@@ -66,6 +66,14 @@ void gather(VectorField<T>& field, std::span<const std::int32_t> order, std::vec
   gather(field.z, order, spare, threads, first);
 }
 
+/// gathered[k] = field[order[k]]
+template <class T>
+void gather(const VectorField<T>& field, std::span<const std::int32_t> order, VectorField<T>& gathered) {
+  gathered.resize(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    gathered.set(k, field.template at<T>(static_cast<std::size_t>(order[k])));
+}
+
 template <class T>
 std::int64_t bytes(const std::vector<T>& v) {
   return static_cast<std::int64_t>(v.capacity() * sizeof(T));

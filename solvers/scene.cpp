@@ -3,158 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "solvers/scene_lattice.h"
+
 namespace sluice {
 namespace {
-
-using Index3 = std::array<std::int64_t, 3>;
-
-/// A box in lattice cells: first cell and one past the last.
-struct CellBox {
-  Index3 lower{};
-  Index3 upper{};
-
-  bool contains(const Index3& c) const {
-    for (int a = 0; a < 3; ++a) {
-      if (c[a] < lower[a] || c[a] >= upper[a]) return false;
-    }
-    return true;
-  }
-  CellBox grown(std::int64_t n) const {
-    CellBox g = *this;
-    for (int a = 0; a < 3; ++a) {
-      g.lower[a] -= n;
-      g.upper[a] += n;
-    }
-    return g;
-  }
-  double cells() const {
-    double n = 1;
-    for (int a = 0; a < 3; ++a) n *= static_cast<double>(upper[a] - lower[a]);
-    return n;
-  }
-};
-
-double component(const Vec3d& v, int axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-double& component(Vec3d& v, int axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-constexpr char axis_name(int axis) {
-  return static_cast<char>('x' + axis);
-}
-constexpr double same_length_m = 1e-9;
-
-double volume(const Box& b) {
-  return (b.upper.x - b.lower.x) * (b.upper.y - b.lower.y) * (b.upper.z - b.lower.z);
-}
-
-/// The lattice of a scene: cell (0, 0, 0) begins at the tank's lower corner.
-class Lattice {
- public:
-  explicit Lattice(const SceneDescription& d) : d_(d), l0_(d.particle_distance_m) {
-    if (!(l0_ > 0) || !std::isfinite(l0_)) throw std::invalid_argument("particle distance must be a positive length");
-    if (d.wall_layers < 1) throw std::invalid_argument("a scene needs at least one layer of wall particles");
-    tank_ = nearest(d.tank, "tank");
-    for (std::size_t k = 0; k < d.fluid.size(); ++k)
-      fluid_.push_back(best_volume(d.fluid[k], fmt::format("fluid[{}]", k)));
-    for (std::size_t k = 0; k < d.obstacles.size(); ++k) {
-      obstacles_.push_back(nearest(d.obstacles[k], fmt::format("obstacle[{}]", k)));
-    }
-  }
-
-  const CellBox& tank() const { return tank_; }
-  const std::vector<CellBox>& fluid() const { return fluid_; }
-  const std::vector<CellBox>& obstacles() const { return obstacles_; }
-
-  Vec3d centre(const Index3& c) const {
-    const Vec3d& o = d_.tank.lower;
-    return {o.x + (static_cast<double>(c[0]) + 0.5) * l0_, o.y + (static_cast<double>(c[1]) + 0.5) * l0_,
-            o.z + (static_cast<double>(c[2]) + 0.5) * l0_};
-  }
-
-  Box box(const CellBox& c) const {
-    Box b;
-    for (int a = 0; a < 3; ++a) {
-      const double origin = component(d_.tank.lower, a);
-      component(b.lower, a) = origin + static_cast<double>(c.lower[a]) * l0_;
-      component(b.upper, a) = origin + static_cast<double>(c.upper[a]) * l0_;
-    }
-    return b;
-  }
-
- private:
-  double in_cells(double x_m, int axis) const { return (x_m - component(d_.tank.lower, axis)) / l0_; }
-
-  static void require_cells(const CellBox& c, const std::string& name, double l0) {
-    for (int a = 0; a < 3; ++a) {
-      if (c.upper[a] > c.lower[a]) continue;
-      throw std::invalid_argument(
-          fmt::format("{} is thinner than half a particle distance in {} at l0 = {} m: choose a smaller l0", name,
-                      axis_name(a), l0));
-    }
-  }
-
-  CellBox nearest(const Box& b, const std::string& name) const {
-    CellBox c;
-    for (int a = 0; a < 3; ++a) {
-      c.lower[a] = std::llround(in_cells(component(b.lower, a), a));
-      c.upper[a] = std::llround(in_cells(component(b.upper, a), a));
-    }
-    require_cells(c, name, l0_);
-    return c;
-  }
-
-  /// Faces that lie on the tank follow the tank; free faces go down or up to a lattice plane, whichever combination
-  /// keeps volume and lengths best: the sum of the volume's and of the largest length's relative deviation is least.
-  CellBox best_volume(const Box& b, const std::string& name) const {
-    CellBox best;
-    double least = std::numeric_limits<double>::infinity();
-    for (int choice = 0; choice < 64; ++choice) {
-      const CellBox c = faces(b, choice);
-      double deviation = std::abs(c.cells() * l0_ * l0_ * l0_ / volume(b) - 1);
-      double worst = 0;
-      for (int a = 0; a < 3; ++a) {
-        const double nominal = component(b.upper, a) - component(b.lower, a);
-        worst = std::max(worst, std::abs(static_cast<double>(c.upper[a] - c.lower[a]) * l0_ / nominal - 1));
-      }
-      if (deviation + worst < least - same_length_m) {
-        least = deviation + worst;
-        best = c;
-      }
-    }
-    require_cells(best, name, l0_);
-    return best;
-  }
-
-  /// Bits of `choice`: whether each of the six faces goes up.
-  CellBox faces(const Box& b, int choice) const {
-    CellBox c;
-    for (int a = 0; a < 3; ++a) {
-      c.lower[a] = face(component(b.lower, a), a, (choice >> a) & 1);
-      c.upper[a] = face(component(b.upper, a), a, (choice >> (a + 3)) & 1);
-    }
-    return c;
-  }
-  std::int64_t face(double x_m, int axis, bool up) const {
-    if (std::abs(x_m - component(d_.tank.lower, axis)) < same_length_m) return tank_.lower[axis];
-    if (std::abs(x_m - component(d_.tank.upper, axis)) < same_length_m) return tank_.upper[axis];
-    const double cells = in_cells(x_m, axis);
-    if (std::abs(cells - std::round(cells)) * l0_ < same_length_m) return std::llround(cells);
-    return static_cast<std::int64_t>(up ? std::ceil(cells) : std::floor(cells));
-  }
-
-  const SceneDescription& d_;
-  double l0_;
-  CellBox tank_;
-  std::vector<CellBox> fluid_;
-  std::vector<CellBox> obstacles_;
-};
 
 /// Calls visit(cell) for every cell of a box, x fastest.
 template <class Visit>
@@ -175,7 +31,7 @@ bool inside_any(const std::vector<CellBox>& boxes, const Index3& c) {
 }
 
 template <class Visit>
-void for_each_fluid_cell(const Lattice& lattice, Visit&& visit) {
+void for_each_fluid_cell(const SceneLattice& lattice, Visit&& visit) {
   const auto& fluid = lattice.fluid();
   for (std::size_t k = 0; k < fluid.size(); ++k) {
     const std::vector<CellBox> earlier(fluid.begin(), fluid.begin() + static_cast<std::ptrdiff_t>(k));
@@ -185,43 +41,102 @@ void for_each_fluid_cell(const Lattice& lattice, Visit&& visit) {
   }
 }
 
-/// How many layers deep a cell lies behind the tank's inner faces (0 the first); the tank is open at the top.
-int tank_layer(const CellBox& tank, const Index3& c) {
-  std::int64_t depth = 0;
-  for (int a = 0; a < 3; ++a) {
-    depth = std::max(depth, tank.lower[a] - c[a]);
-    if (a < 2) depth = std::max(depth, c[a] - tank.upper[a] + 1);
+constexpr std::int64_t no_face = std::numeric_limits<std::int64_t>::max();
+
+/// How many layers deep a cell lies behind each face of a body, by the face's bit; no_face where there is none.
+struct Depths {
+  std::array<std::int64_t, 6> behind{no_face, no_face, no_face, no_face, no_face, no_face};
+
+  void set(int axis, bool upwards, std::int64_t depth) { behind[static_cast<std::size_t>(2 * axis + upwards)] = depth; }
+  std::int64_t least() const { return *std::min_element(behind.begin(), behind.end()); }
+  /// Faces behind which the cell lies at 0 .. layers - 1.
+  FaceSet within(std::int64_t layers) const {
+    FaceSet set = 0;
+    for (std::size_t f = 0; f < behind.size(); ++f)
+      if (behind[f] >= 0 && behind[f] < layers) set = static_cast<FaceSet>(set | (1U << f));
+    return set;
   }
-  return static_cast<int>(depth) - 1;
+};
+
+/// Of a cell outside the tank: how deep behind the planes of its inner faces; the tank is open at the top.
+Depths tank_depths(const CellBox& tank, const Index3& c) {
+  Depths d;
+  for (int a = 0; a < 3; ++a) {
+    d.set(a, true, tank.lower[a] - c[a] - 1);
+    if (a < 2) d.set(a, false, c[a] - tank.upper[a]);
+  }
+  return d;
 }
 
-/// How many layers deep a cell lies inside an obstacle. A face that stands on the tank is not a wet face.
-int obstacle_layer(const CellBox& obstacle, const CellBox& tank, const Index3& c) {
-  std::int64_t depth = std::numeric_limits<std::int64_t>::max();
-  for (int a = 0; a < 3; ++a) {
-    if (obstacle.lower[a] > tank.lower[a]) depth = std::min(depth, c[a] - obstacle.lower[a]);
-    if (obstacle.upper[a] < tank.upper[a]) depth = std::min(depth, obstacle.upper[a] - 1 - c[a]);
-  }
-  return depth > 1000 ? 1000 : static_cast<int>(depth);
+/// The tank's layer is that of the deepest plane, at its edges too.
+int tank_layer(const Depths& d) {
+  std::int64_t depth = -1;
+  for (const std::int64_t b : d.behind)
+    if (b != no_face) depth = std::max(depth, b);
+  return static_cast<int>(depth);
 }
 
-/// Calls visit(cell, layer, body) for every wall particle: the tank first, then the obstacles.
-template <class Visit>
-void for_each_wall_cell(const Lattice& lattice, int layers, Visit&& visit) {
+/// A cell in the first layer lies on the one face before which the tank's inside begins.
+FaceSet tank_faces(const CellBox& tank, const Index3& c, const Depths& d) {
+  int outside = 0;
+  for (int a = 0; a < 3; ++a) outside += c[a] < tank.lower[a] || c[a] >= tank.upper[a];
+  return outside == 1 ? d.within(1) : FaceSet{0};
+}
+
+/// Of a cell in an obstacle, or under it. A face that stands on the tank is not a wet face, unless the obstacle moves
+/// away from there.
+Depths obstacle_depths(const CellBox& obstacle, const CellBox& tank, bool moves, const Index3& c) {
+  Depths d;
+  for (int a = 0; a < 3; ++a) {
+    if (moves || obstacle.lower[a] > tank.lower[a]) d.set(a, false, c[a] - obstacle.lower[a]);
+    if (moves || obstacle.upper[a] < tank.upper[a]) d.set(a, true, obstacle.upper[a] - 1 - c[a]);
+  }
+  return d;
+}
+
+/// The obstacle under which a cell of the tank's floor lies: 1 + its index; 0: none.
+std::int8_t foot_of(const SceneLattice& lattice, const SceneDescription& d, const Index3& c) {
   const CellBox& tank = lattice.tank();
-  CellBox shell = tank.grown(layers);
+  if (c[2] >= tank.lower[2]) return 0;
+  for (std::size_t k = 0; k < lattice.obstacles().size(); ++k) {
+    const CellBox& o = lattice.obstacles()[k];
+    if (!d.obstacles[k].motion.moves() && o.lower[2] <= tank.lower[2] && c[0] >= o.lower[0] && c[0] < o.upper[0] &&
+        c[1] >= o.lower[1] && c[1] < o.upper[1])
+      return static_cast<std::int8_t>(k + 1);
+  }
+  return 0;
+}
+
+WallParticle tank_particle(const SceneLattice& lattice, const SceneDescription& d, const Index3& c) {
+  const Depths depths = tank_depths(lattice.tank(), c);
+  WallParticle w{lattice.centre(c), static_cast<std::int8_t>(tank_layer(depths)), 0, foot_of(lattice, d, c), 0, 0};
+  w.on_faces = tank_faces(lattice.tank(), c, depths);
+  w.behind_faces = depths.within(d.wall_layers);
+  if (w.foot_of > 0) {
+    const CellBox& o = lattice.obstacles()[static_cast<std::size_t>(w.foot_of) - 1];
+    w.behind_faces = obstacle_depths(o, lattice.tank(), false, {c[0], c[1], o.lower[2]}).within(d.wall_layers);
+  }
+  return w;
+}
+
+/// Calls visit(particle) for every wall particle: the tank first, then the obstacles.
+template <class Visit>
+void for_each_wall(const SceneLattice& lattice, const SceneDescription& d, Visit&& visit) {
+  const CellBox& tank = lattice.tank();
+  CellBox shell = tank.grown(d.wall_layers);
   shell.upper[2] = tank.upper[2];
-  for (int body = 0; body <= static_cast<int>(lattice.obstacles().size()); ++body) {
-    if (body == 0) {
-      for_each_cell(shell, [&](const Index3& c) {
-        if (!tank.contains(c)) visit(c, tank_layer(tank, c), body);
-      });
-      continue;
-    }
-    const CellBox& obstacle = lattice.obstacles()[static_cast<std::size_t>(body) - 1];
+  for_each_cell(shell, [&](const Index3& c) {
+    if (!tank.contains(c)) visit(tank_particle(lattice, d, c));
+  });
+  for (std::size_t k = 0; k < lattice.obstacles().size(); ++k) {
+    const CellBox& obstacle = lattice.obstacles()[k];
+    const bool moves = d.obstacles[k].motion.moves();
     for_each_cell(obstacle, [&](const Index3& c) {
-      const int layer = obstacle_layer(obstacle, tank, c);
-      if (layer < layers && tank.contains(c)) visit(c, layer, body);
+      const Depths depths = obstacle_depths(obstacle, tank, moves, c);
+      const std::int64_t layer = depths.least();
+      if (layer >= d.wall_layers || !tank.contains(c)) return;
+      visit(WallParticle{lattice.centre(c), static_cast<std::int8_t>(layer), static_cast<std::int8_t>(k + 1), 0,
+                         depths.within(1), depths.within(d.wall_layers)});
     });
   }
 }
@@ -235,7 +150,7 @@ std::int64_t as_count(double cells) {
 
 /// Counts without visiting cells, since a plan may be for more particles than one could visit: all boxes' faces cut
 /// space into blocks that are fluid throughout or not at all.
-std::int64_t count_fluid_cells(const Lattice& lattice) {
+std::int64_t count_fluid_cells(const SceneLattice& lattice) {
   std::array<std::vector<std::int64_t>, 3> cuts;
   const auto cut = [&](const CellBox& b) {
     for (int a = 0; a < 3; ++a) cuts[a].insert(cuts[a].end(), {b.lower[a], b.upper[a]});
@@ -261,17 +176,19 @@ std::int64_t count_fluid_cells(const Lattice& lattice) {
 }
 
 /// A body's wall particles are its box less the core that lies deeper than all layers.
-std::int64_t count_wall_cells(const Lattice& lattice, int layers) {
+std::int64_t count_wall_cells(const SceneLattice& lattice, const SceneDescription& d) {
   const CellBox& tank = lattice.tank();
-  CellBox shell = tank.grown(layers);
+  CellBox shell = tank.grown(d.wall_layers);
   shell.upper[2] = tank.upper[2];
   double total = shell.cells() - tank.cells();
-  for (const CellBox& obstacle : lattice.obstacles()) {
+  for (std::size_t k = 0; k < lattice.obstacles().size(); ++k) {
+    const CellBox obstacle = lattice.obstacles()[k].shared_with(tank);
+    const bool moves = d.obstacles[k].motion.moves();
     CellBox core = obstacle;
     bool hollow = true;
     for (int a = 0; a < 3; ++a) {
-      if (obstacle.lower[a] > tank.lower[a]) core.lower[a] += layers;
-      if (obstacle.upper[a] < tank.upper[a]) core.upper[a] -= layers;
+      if (moves || obstacle.lower[a] > tank.lower[a]) core.lower[a] += d.wall_layers;
+      if (moves || obstacle.upper[a] < tank.upper[a]) core.upper[a] -= d.wall_layers;
       hollow = hollow && core.upper[a] > core.lower[a];
     }
     total += obstacle.cells() - (hollow ? core.cells() : 0.0);
@@ -290,7 +207,19 @@ void record_fit(Scene& scene, const std::string& name, const Box& nominal, const
   }
 }
 
-void fit(Scene& scene, const Lattice& lattice) {
+/// A body that rises without a given end stops where no fluid can reach it any more.
+void end_motion(Obstacle& o, const SceneDescription& d, std::size_t k) {
+  if (!o.motion.moves() || std::isfinite(o.motion.stop_s)) return;
+  const Vec3d& v = o.motion.velocity_m_s;
+  if (v.x != 0 || v.y != 0 || v.z < 0)
+    throw std::invalid_argument(
+        fmt::format("obstacle[{}] moves for ever and not upwards: give the time at which it stops", k));
+  constexpr double reach_over_distance = 8;
+  const double clear_m = fluid_ceiling_m(d.tank) + reach_over_distance * d.particle_distance_m;
+  o.motion.stop_s = o.motion.start_s + std::max(0.0, clear_m - o.box.lower.z) / v.z;
+}
+
+void fit(Scene& scene, const SceneLattice& lattice) {
   const SceneDescription& d = scene.description;
   scene.fitted = d;
   scene.fitted.tank = lattice.box(lattice.tank());
@@ -301,27 +230,43 @@ void fit(Scene& scene, const Lattice& lattice) {
     scene.nominal_fluid_volume_m3 += volume(d.fluid[k]);
   }
   for (std::size_t k = 0; k < d.obstacles.size(); ++k) {
-    scene.fitted.obstacles[k] = lattice.box(lattice.obstacles()[k]);
-    record_fit(scene, fmt::format("obstacle[{}]", k), d.obstacles[k], scene.fitted.obstacles[k]);
+    Obstacle& fitted = scene.fitted.obstacles[k];
+    fitted.box = lattice.box(lattice.obstacles()[k]);
+    const std::string& name = d.obstacles[k].name;
+    record_fit(scene, name.empty() ? fmt::format("obstacle[{}]", k) : name, d.obstacles[k].box, fitted.box);
+    end_motion(fitted, scene.fitted, k);
   }
 }
 
 }  // namespace
 
+double fluid_ceiling_m(const Box& tank) {
+  return tank.upper.z + 0.5 * (tank.upper.z - tank.lower.z);
+}
+
+double Scene::still_level_m(const Vec3d& p, double reach_m) const {
+  double level = fitted.tank.lower.z;
+  for (std::size_t k = 0; k < fitted.fluid.size(); ++k) {
+    const Box& b = fitted.fluid[k];
+    const bool over = p.x > b.lower.x - reach_m && p.x < b.upper.x + reach_m && p.y > b.lower.y - reach_m &&
+                      p.y < b.upper.y + reach_m;
+    if (over) level = std::max(level, description.fluid[k].upper.z);
+  }
+  return level;
+}
+
 ParticleCounts count_particles(const SceneDescription& description) {
-  const Lattice lattice(description);
-  return {count_fluid_cells(lattice), count_wall_cells(lattice, description.wall_layers)};
+  const SceneLattice lattice(description);
+  return {count_fluid_cells(lattice), count_wall_cells(lattice, description)};
 }
 
 Scene build_scene(const SceneDescription& description) {
   Scene scene;
   scene.description = description;
-  const Lattice lattice(scene.description);
+  const SceneLattice lattice(scene.description);
   fit(scene, lattice);
   for_each_fluid_cell(lattice, [&](const Index3& c) { scene.fluid.push_back(lattice.centre(c)); });
-  for_each_wall_cell(lattice, description.wall_layers, [&](const Index3& c, int layer, int body) {
-    scene.walls.push_back({lattice.centre(c), layer, body});
-  });
+  for_each_wall(lattice, description, [&](const WallParticle& w) { scene.walls.push_back(w); });
   const double l0 = description.particle_distance_m;
   scene.fluid_volume_m3 = static_cast<double>(scene.fluid.size()) * l0 * l0 * l0;
   return scene;

@@ -2,36 +2,32 @@
 // Coordinates: x along the tank from the downstream wall, y across, z up; SI units throughout.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "solvers/box.h"
+#include "solvers/rigid_motion.h"
 #include "solvers/vec3.h"
 
 namespace sluice {
 
-/// An axis-parallel box [m].
-struct Box {
-  Vec3d lower;
-  Vec3d upper;
+
+/// A solid box in the tank. One that moves is a rigid body with a prescribed motion, such as a gate.
+struct Obstacle {
+  Box box;           ///< where it stands at t = 0
+  std::string name;  ///< such as "block"; may be empty
+  /// A plate may be thinner than three particles; on the lattice it is then made three particles thick, so that fluid on
+  /// its two sides stays out of each other's reach.
+  bool thin = false;
+  RigidMotion motion{};
 };
-
-/// Whether a point lies in a box or on its faces.
-inline bool holds_point(const Box& b, const Vec3d& p) {
-  return p.x >= b.lower.x && p.x <= b.upper.x && p.y >= b.lower.y && p.y <= b.upper.y && p.z >= b.lower.z &&
-         p.z <= b.upper.z;
-}
-
-inline double longest_edge(const Box& b) {
-  return std::max({b.upper.x - b.lower.x, b.upper.y - b.lower.y, b.upper.z - b.lower.z});
-}
 
 /// The geometry and fluid of a case, as nominal (unfitted) lengths. A tank is its inner faces, open at the top.
 struct SceneDescription {
   Box tank;
   std::vector<Box> fluid;
-  std::vector<Box> obstacles;
+  std::vector<Obstacle> obstacles;
   double particle_distance_m = 0;
   int wall_layers = 3;  ///< particle layers behind each wet face
   Vec3d gravity_m_s2{0, 0, -9.81};
@@ -45,10 +41,21 @@ struct FittedLength {
   double fitted_m = 0;
 };
 
+/// The six faces of a body, as bits of a set, named by their normals into the fluid: the tank's face x+ is its wall at
+/// lower x, an obstacle's face x+ is the one at upper x.
+using FaceSet = std::uint8_t;
+constexpr FaceSet face_bit(int axis, bool upwards) {
+  return static_cast<FaceSet>(1U << static_cast<unsigned>(2 * axis + (upwards ? 1 : 0)));
+}
+constexpr FaceSet all_faces = 63;
+
 struct WallParticle {
   Vec3d position;
-  int layer = 0;  ///< 0 touches the fluid
-  int body = 0;   ///< 0 the tank, 1 + k obstacle k
+  std::int8_t layer = 0;     ///< 0 touches the fluid
+  std::int8_t body = 0;      ///< 0 the tank, 1 + k obstacle k
+  std::int8_t foot_of = 0;   ///< a particle of the tank under obstacle k, in its box prolonged: 1 + k
+  FaceSet on_faces = 0;      ///< faces of its body of whose first layer it is: each such face is tiled by l0 squares
+  FaceSet behind_faces = 0;  ///< faces of its body, or of the obstacle whose foot it is, of whose layers it is
 };
 
 struct ParticleCounts {
@@ -66,7 +73,14 @@ struct Scene {
   std::vector<WallParticle> walls;
   double nominal_fluid_volume_m3 = 0;
   double fluid_volume_m3 = 0;
+
+  /// Height of the fluid's surface at the start, over a point: the highest among the bodies of fluid that lie within
+  /// `reach_m` of it in x and y; the tank's floor where there are none.
+  double still_level_m(const Vec3d& point_m, double reach_m) const;
 };
+
+/// No fluid rises higher: what does has left over the top. Half the tank's height above its rim.
+double fluid_ceiling_m(const Box& tank);
 
 /// Particle counts without building the particles: for planning and for the check against memory.
 /// Throws std::invalid_argument when a box does not make sense at this particle distance (the message names it).

@@ -14,7 +14,7 @@ SceneDescription kleefsman(double l0, int layers) {
   SceneDescription d;
   d.tank = {{0, 0, 0}, {3.22, 1, 1}};
   d.fluid = {{{1.992, 0, 0}, {3.22, 1, 0.55}}};
-  d.obstacles = {{{0.6635, 0.2985, 0}, {0.8245, 0.7015, 0.161}}};
+  d.obstacles = {{.box = {{0.6635, 0.2985, 0}, {0.8245, 0.7015, 0.161}}}};
   d.particle_distance_m = l0;
   d.wall_layers = layers;
   return d;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct LostParticles {
 struct PressureReading {
   double pressure_Pa = 0;
   double support = 0;  ///< share of the kernel's (or the patch's) support that was filled, 0..1 or a little over
+};
+
+/// What a velocity probe read.
+struct VelocityReading {
+  Vec3d velocity_m_s;
+  double support = 0;  ///< as above
 };
 
 /// The fluid as a whole.
@@ -68,6 +75,13 @@ class Solver {
   /// Pressure of the wall at a point on it. WCSPH: the mean of the first layer's particles within one smoothing length;
   /// MPS: the particle nearest to the point.
   virtual PressureReading wall_pressure(const Vec3d& point_m) const = 0;
+  /// Kernel-weighted mean velocity of the fluid at a point.
+  virtual VelocityReading kernel_velocity(const Vec3d& point_m) const = 0;
+  /// Force of the fluid on wall particles, named by their places in Scene::walls [N]: mass times the acceleration that
+  /// they would have from the fluid around them, gravity apart.
+  virtual Vec3d wall_reaction_N(std::span<const std::int32_t> walls) const = 0;
+  /// Pressure of one wall particle of a first layer, named likewise [Pa].
+  virtual double wall_particle_pressure_Pa(std::int32_t wall) const = 0;
   /// Smoothed volume fraction of fluid at a point: 1 inside, 0 outside, one half at a plane free surface.
   virtual double volume_fraction(const Vec3d& point_m) const = 0;
   /// The smoothing length h [m] (MPS: half the effective radius): the scale of offsets from walls.

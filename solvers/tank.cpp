@@ -7,41 +7,37 @@
 namespace sluice {
 namespace {
 
-bool contains(const Box& b, const Vec3d& p) {
-  return p.x > b.lower.x && p.x < b.upper.x && p.y > b.lower.y && p.y < b.upper.y && p.z > b.lower.z && p.z < b.upper.z;
-}
-
-/// Shrinks an obstacle by the tolerance except where it stands on the tank.
-Box core(Box b, const Box& tank, double tolerance) {
-  const auto shrink = [&](double& lower, double& upper, double tank_lower, double tank_upper) {
-    lower += lower > tank_lower ? tolerance : -tolerance;
-    upper -= upper < tank_upper ? tolerance : -tolerance;
-  };
-  shrink(b.lower.x, b.upper.x, tank.lower.x, tank.upper.x);
-  shrink(b.lower.y, b.upper.y, tank.lower.y, tank.upper.y);
-  shrink(b.lower.z, b.upper.z, tank.lower.z, tank.upper.z);
+/// Shrinks an obstacle except where it stands on the tank for good.
+Box core(const Obstacle& o, const Box& tank, double tolerance) {
+  Box b = o.box;
+  const bool moves = o.motion.moves();
+  for (int a = 0; a < 3; ++a) {
+    double& lower = component(b.lower, a);
+    double& upper = component(b.upper, a);
+    lower += moves || lower > component(tank.lower, a) ? tolerance : -tolerance;
+    upper -= moves || upper < component(tank.upper, a) ? tolerance : -tolerance;
+  }
   return b;
 }
 
-/// Moves a point inside a box to its nearest side or top, and takes the velocity into the box.
-bool push_out(const Box& b, Vec3d& p, Vec3d& u) {
+/// Moves a point inside a box to its nearest side, top, or bottom where it `has_bottom`, and takes the velocity into the
+/// box.
+void push_out(const Box& b, bool has_bottom, Vec3d& p, Vec3d& u) {
   const double x = std::min(p.x - b.lower.x, b.upper.x - p.x);
   const double y = std::min(p.y - b.lower.y, b.upper.y - p.y);
-  const double z = b.upper.z - p.z;
+  const double z = has_bottom ? std::min(p.z - b.lower.z, b.upper.z - p.z) : b.upper.z - p.z;
   const auto to_side = [](double& c, double& v, double lower, double upper) {
     const bool low = c - lower < upper - c;
     v = low ? std::min(0.0, v) : std::max(0.0, v);
     c = low ? lower : upper;
   };
   if (z <= x && z <= y) {
-    p.z = b.upper.z;
-    u.z = std::max(0.0, u.z);
+    to_side(p.z, u.z, has_bottom ? b.lower.z : -std::numeric_limits<double>::infinity(), b.upper.z);
   } else if (x <= y) {
     to_side(p.x, u.x, b.lower.x, b.upper.x);
   } else {
     to_side(p.y, u.y, b.lower.y, b.upper.y);
   }
-  return true;
 }
 
 }  // namespace
@@ -51,21 +47,36 @@ Tank::Tank(const Scene& scene)
   const double l0 = scene.description.particle_distance_m;
   const Box& tank = scene.fitted.tank;
   inside_.lower = inside_.lower - Vec3d{l0, l0, l0};
-  inside_.upper = inside_.upper + Vec3d{l0, l0, 0.5 * (tank.upper.z - tank.lower.z)};
+  inside_.upper = {tank.upper.x + l0, tank.upper.y + l0, fluid_ceiling_m(tank)};
   half_m_ = 0.5 * l0;
-  for (const Box& o : scene.fitted.obstacles) skin_.push_back(core(o, tank, half_m_));
-  for (const Box& o : scene.fitted.obstacles) solid_.push_back(core(o, tank, l0));
-  bodies_.push_back(tank);
-  bodies_.insert(bodies_.end(), scene.fitted.obstacles.begin(), scene.fitted.obstacles.end());
   const double margin = (scene.description.wall_layers + 1) * l0;
   domain_ = {tank.lower - Vec3d{margin, margin, margin}, tank.upper + Vec3d{margin, margin, 0}};
   domain_.upper.z = inside_.upper.z + l0;
+  bodies_.push_back(tank);
+  for (const Obstacle& o : scene.fitted.obstacles) {
+    solids_.push_back({core(o, tank, l0), core(o, tank, half_m_), o.motion});
+    if (!o.motion.moves()) {
+      bodies_.push_back(o.box);
+      continue;
+    }
+    const Vec3d spare{l0, l0, l0};
+    const Box end = shifted(o.box, o.motion.displacement_m(o.motion.stop_s));
+    domain_ = around(domain_, {end.lower - spare, end.upper + spare});
+  }
+  move_obstacles(0);
+}
+
+void Tank::move_obstacles(double t_s) {
+  for (Solid& s : solids_) {
+    s.displacement_m = s.motion.displacement_m(t_s);
+    s.velocity_m_s = s.motion.velocity_at(t_s);
+  }
 }
 
 Whereabouts Tank::whereabouts(const Vec3d& p) const {
-  if (contains(inside_, p)) {
-    for (const Box& o : solid_) {
-      if (contains(o, p)) return Whereabouts::through_wall;
+  if (holds_inside(inside_, p)) {
+    for (const Solid& s : solids_) {
+      if (holds_inside(s.core, p - s.displacement_m)) return Whereabouts::through_wall;
     }
     return Whereabouts::inside;
   }
@@ -82,13 +93,19 @@ bool Tank::hold(Vec3d& p, Vec3d& u) const {
     held = true;
   };
   const Box& tank = bodies_.front();
-  if (p.z < rim_m_ && contains(inside_, p)) {
+  if (p.z < rim_m_ && holds_inside(inside_, p)) {
     keep(p.x, u.x, tank.lower.x - half_m_, tank.upper.x + half_m_);
     keep(p.y, u.y, tank.lower.y - half_m_, tank.upper.y + half_m_);
     keep(p.z, u.z, tank.lower.z - half_m_, inside_.upper.z);
   }
-  for (std::size_t k = 0; k < skin_.size(); ++k) {
-    if (contains(skin_[k], p) && !contains(solid_[k], p)) held = push_out(skin_[k], p, u) || held;
+  for (const Solid& s : solids_) {
+    Vec3d relative = p - s.displacement_m;
+    if (!holds_inside(s.skin, relative) || holds_inside(s.core, relative)) continue;
+    Vec3d velocity = u - s.velocity_m_s;
+    push_out(s.skin, s.motion.moves(), relative, velocity);
+    p = relative + s.displacement_m;
+    u = velocity + s.velocity_m_s;
+    held = true;
   }
   return held;
 }

@@ -38,4 +38,12 @@ template <class Real>
 
 using Vec3d = Vec3<double>;
 
+/// x, y and z by their numbers 0, 1 and 2.
+constexpr double component(const Vec3d& v, int axis) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+constexpr double& component(Vec3d& v, int axis) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
 }  // namespace sluice

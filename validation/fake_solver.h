@@ -38,6 +38,12 @@ class FakeSolver : public Solver {
   std::map<std::string, double> facts() const override { return {{"c0_m_s", 46.5}}; }
   PressureReading kernel_pressure(const Vec3d&) const override { return {pressure_scale_ * time_s_, 1.0}; }
   PressureReading wall_pressure(const Vec3d&) const override { return {2 * pressure_scale_ * time_s_, 1.0}; }
+  VelocityReading kernel_velocity(const Vec3d&) const override { return {{3 * time_s_, 0, 0}, 1.0}; }
+  /// A newton each along x.
+  Vec3d wall_reaction_N(std::span<const std::int32_t> walls) const override {
+    return {static_cast<double>(walls.size()), 0, 0};
+  }
+  double wall_particle_pressure_Pa(std::int32_t) const override { return pressure_scale_ * time_s_; }
   double volume_fraction(const Vec3d& p) const override { return p.z < 0.2 && p.z > 0 ? 1.0 : 0.0; }
   double smoothing_length_m() const override { return 1.5 * scene_.description.particle_distance_m; }
   void visit_state(StateArchive& archive) override {

@@ -18,14 +18,6 @@ namespace {
 constexpr double inside = 0.5;  // volume fraction at a plane free surface
 constexpr double face_tolerance_m = 1e-3;
 
-double component(const Vec3d& v, int axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
-double& component(Vec3d& v, int axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 // The levels of a probe's line: level k stands k l0/2 above the bed.
 class LineScan {
  public:
@@ -133,8 +125,9 @@ class WaveHeightSensor : public Sensor {
     line_.x_m = sensor_.position_m.x;
     line_.y_m = sensor_.position_m.y;
     line_.bed_z_m = scene.fitted.tank.lower.z;
-    for (const Box& obstacle : scene.fitted.obstacles)
-      if (covers(obstacle, sensor_.position_m)) line_.bed_z_m = std::max(line_.bed_z_m, obstacle.upper.z);
+    for (const Obstacle& obstacle : scene.fitted.obstacles)
+      if (!obstacle.motion.moves() && covers(obstacle.box, sensor_.position_m))
+        line_.bed_z_m = std::max(line_.bed_z_m, obstacle.box.upper.z);
     line_.top_z_m = scene.fitted.tank.upper.z;
     line_.particle_distance_m = scene.fitted.particle_distance_m;
     line_.smoothing_length_m = smoothing_length_m;
@@ -206,7 +199,7 @@ Vec3d on_fitted_face(const Scene& scene, const Vec3d& position_m, const Vec3d& n
   // An obstacle's normals point out of its box, the tank's into it.
   std::optional<double> face = fitted_face(nominal.tank, fitted.tank, position_m, axis, !positive);
   for (std::size_t i = 0; !face && i < nominal.obstacles.size(); ++i)
-    face = fitted_face(nominal.obstacles[i], fitted.obstacles[i], position_m, axis, positive);
+    face = fitted_face(nominal.obstacles[i].box, fitted.obstacles[i].box, position_m, axis, positive);
   Vec3d placed = position_m;
   if (face) component(placed, axis) = *face;
   return placed;

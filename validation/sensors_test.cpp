@@ -179,11 +179,11 @@ TEST(WaveHeight, TheMirrorFillsTheKernelAtTheBed) {
 Scene moved_box() {
   Scene scene;
   scene.description.tank = {{0, 0, 0}, {3.22, 1, 1}};
-  scene.description.obstacles = {{{0.6635, 0.2985, 0}, {0.8245, 0.7015, 0.161}}};
+  scene.description.obstacles = {{.box = {{0.6635, 0.2985, 0}, {0.8245, 0.7015, 0.161}}}};
   scene.description.particle_distance_m = l0;
   scene.fitted = scene.description;
   scene.fitted.tank.upper.x = 3.24;
-  scene.fitted.obstacles = {{{0.66, 0.3, 0}, {0.82, 0.7, 0.16}}};
+  scene.fitted.obstacles = {{.box = {{0.66, 0.3, 0}, {0.82, 0.7, 0.16}}}};
   return scene;
 }
 

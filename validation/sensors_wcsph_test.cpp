@@ -21,7 +21,7 @@ Case still_tank() {
   Case c;
   c.tank = {{0, 0, 0}, {0.6, 0.4, 0.4}};
   c.fluid = {{{0, 0, 0}, {0.6, 0.4, level}}};
-  c.obstacles = {{{0.0, 0.1, 0}, {0.205, 0.3, 0.095}}};
+  c.obstacles = {{.box = {{0.0, 0.1, 0}, {0.205, 0.3, 0.095}}}};
   c.gravity_m_s2 = {0, 0, -9.81};
   c.water_height_m = level;
   c.density_kg_m3 = 1000;

@@ -28,11 +28,15 @@ struct Distances {
 struct WallAhead {
   Vec3d normal;
   double gap_m = std::numeric_limits<double>::infinity();  ///< along a normal to the layer's particles
+  double shares = 0;
+  Vec3d velocity_m_s;  ///< of the wall, times the sum of shares
 
-  void add(const Vec3d& r, const Vec3d& wall_normal, double support_m) {
+  void add(const Vec3d& r, const Vec3d& wall_normal, const Vec3d& wall_velocity, double support_m) {
     const double share = support_m - std::sqrt(dot(r, r));
     if (share <= 0) return;
     normal += share * wall_normal;
+    shares += share;
+    velocity_m_s += share * wall_velocity;
     gap_m = std::min(gap_m, -dot(r, wall_normal));
   }
 
@@ -41,7 +45,7 @@ struct WallAhead {
     const double length = std::sqrt(dot(normal, normal));
     if (length == 0) return {};
     const Vec3d n = (1 / length) * normal;
-    const double into = dot(velocity, n);
+    const double into = dot(velocity - (1 / shares) * velocity_m_s, n);
     if (into >= 0 || gap_m + dt_s * into >= wall_m) return {};
     return -into * n;
   }
@@ -60,7 +64,7 @@ Vec3d velocity_change(const Particles<Pack>& p, const VectorField<double>& wall_
     const auto j = static_cast<std::size_t>(list.near().columns()[at]);
     const Vec3d r = p.position.template at<double>(j) - x;
     if (!p.is_fluid(j)) {
-      wall.add(r, wall_normals.at<double>(j - p.first_wall()), d.support_m);
+      wall.add(r, wall_normals.at<double>(j - p.first_wall()), p.velocity.template at<double>(j), d.support_m);
       continue;
     }
     const Vec3d relative = p.velocity.template at<double>(j) - u;
@@ -95,18 +99,20 @@ std::int64_t collide(const Particles<Pack>& p, const VectorField<double>& wall_n
 }
 
 template <class Pack>
-VectorField<double> wall_normals(const Particles<Pack>& p, const RowIndex& dummies, double particle_distance_m) {
+VectorField<double> wall_normals(const Particles<Pack>& p, const RowIndex& dummies,
+                                 const std::function<int(std::size_t)>& body, double particle_distance_m) {
   VectorField<double> normals;
   normals.resize(p.walls);
   const double support_m = 1.75 * particle_distance_m;  // the layer behind, with its corners
   for (std::size_t w = 0; w < p.walls; ++w) {
     const Vec3d x = p.position.template at<double>(p.first_wall() + w);
+    const int own_body = body(p.first_wall() + w);
     Vec3d sum;
     for (const Run& run : dummies.neighbours(x, 0.0)) {
       for (auto j = static_cast<std::size_t>(run.begin); j < static_cast<std::size_t>(run.end); ++j) {
         const Vec3d r = p.position.template at<double>(j) - x;
         const double distance = std::sqrt(dot(r, r));
-        if (distance < support_m) sum += (-1 / distance) * r;
+        if (distance < support_m && body(j) == own_body) sum += (-1 / distance) * r;
       }
     }
     const double length = std::sqrt(dot(sum, sum));
@@ -119,7 +125,9 @@ template std::int64_t collide(const Particles<double>&, const VectorField<double
                               const OperatorConstants&, VectorField<double>&, int);
 template std::int64_t collide(const Particles<FloatPack>&, const VectorField<double>&, const NeighbourList<FloatPack>&,
                               const OperatorConstants&, VectorField<float>&, int);
-template VectorField<double> wall_normals(const Particles<double>&, const RowIndex&, double);
-template VectorField<double> wall_normals(const Particles<FloatPack>&, const RowIndex&, double);
+template VectorField<double> wall_normals(const Particles<double>&, const RowIndex&,
+                                          const std::function<int(std::size_t)>&, double);
+template VectorField<double> wall_normals(const Particles<FloatPack>&, const RowIndex&,
+                                          const std::function<int(std::size_t)>&, double);
 
 }  // namespace sluice::mps

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "solvers/mps/neighbours.h"
 #include "solvers/mps/operators.h"
@@ -27,8 +28,10 @@ std::int64_t collide(const Particles<Pack>& particles, const VectorField<double>
 /// Within this distance two particles, or a particle and a wall, may meet in the next step   [m]
 double collision_reach_m(const Parameters& parameters);
 
-/// Unit normals of the wall particles into the fluid: away from the dummy particles behind them.
+/// Unit normals of the wall particles into the fluid: away from the dummy particles behind them. `body(i)` tells apart
+/// bodies that move against each other: only dummies of a wall particle's own body count.
 template <class Pack>
-VectorField<double> wall_normals(const Particles<Pack>& particles, const RowIndex& dummies, double particle_distance_m);
+VectorField<double> wall_normals(const Particles<Pack>& particles, const RowIndex& dummies,
+                                 const std::function<int(std::size_t)>& body, double particle_distance_m);
 
 }  // namespace sluice::mps

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "solvers/mps/mps_solver.h"
+#include "solvers/mps/terms.h"
 #include "solvers/totals.h"
 #include "solvers/wcsph/kernel.h"
 
@@ -47,6 +48,56 @@ PressureReading MpsSolver<Pack>::kernel_pressure(const Vec3d& point_m) const {
   return {weights > 0 ? pressures / weights : 0.0, weights * l0 * l0 * l0};
 }
 
+/// The same mean of the velocity   [m/s]
+template <class Pack>
+VelocityReading MpsSolver<Pack>::kernel_velocity(const Vec3d& point_m) const {
+  if (!holds_point(tank_.domain(), point_m)) return {};
+  const double h = smoothing_length_m();
+  const double l0 = constants_.parameters.particle_distance_m;
+  const double normalisation = wcsph::Wendland{h}.normalisation();
+  double weights = 0;
+  Vec3d velocities;
+  for_each_near(particles_, {fluid_index_, particles_.first_fluid()}, point_m, travel_m_,
+                [&](std::size_t j, double distance) {
+                  if (distance >= 2 * h) return;
+                  const double W = wcsph::wendland_weight(wcsph::wendland_taper(distance, 0.5 / h), normalisation);
+                  weights += W;
+                  velocities += W * particles_.velocity.template at<double>(j);
+                });
+  return {weights > 0 ? (1 / weights) * velocities : Vec3d{}, weights * l0 * l0 * l0};
+}
+
+template <class Pack>
+Vec3d MpsSolver<Pack>::wall_reaction_N(std::span<const std::int32_t> walls) const {
+  Vec3d sum;
+  for (const std::int32_t wall : walls) sum += reaction_of(place_of(wall));
+  return sum;
+}
+
+/// Mass times the acceleration by a pressure gradient with P_i + P_j in the place of P_j - P_i, in which what two
+/// particles do to each other is opposite and equal (Eq. 18 has no such symmetry); summed over the layers of a plane wall
+/// under one pressure it is that pressure times the area. A dummy has no pressure of its own: it takes its neighbour's.
+template <class Pack>
+Vec3d MpsSolver<Pack>::reaction_of(std::size_t i) const {
+  const double l0 = constants_.parameters.particle_distance_m;
+  const double radius = constants_.parameters.effective_radius_m();
+  const Vec3d x = particles_.position.template at<double>(i);
+  Vec3d sum;
+  for_each_near(particles_, {fluid_index_, particles_.first_fluid()}, x, travel_m_,
+                [&](std::size_t j, double distance) {
+                  if (distance >= radius) return;
+                  const double P_i = particles_.is_dummy(i) ? particles_.pressure[j] : particles_.pressure[i];
+                  sum += gradient_term(-P_i, particles_.pressure[j], particles_.position.template at<double>(j) - x,
+                                       distance * distance, weight(distance, radius));
+                });
+  return (-l0 * l0 * l0 * 3 / constants_.lattice.number_density) * sum;
+}
+
+template <class Pack>
+double MpsSolver<Pack>::wall_particle_pressure_Pa(std::int32_t wall) const {
+  return particles_.pressure[place_of(wall)];
+}
+
 template <class Pack>
 double MpsSolver<Pack>::volume_fraction(const Vec3d& point_m) const {
   return kernel_pressure(point_m).support;
@@ -57,7 +108,7 @@ PressureReading MpsSolver<Pack>::wall_pressure(const Vec3d& point_m) const {
   if (!holds_point(tank_.domain(), point_m)) return {};
   double least = std::numeric_limits<double>::infinity();
   std::size_t nearest = 0;
-  for_each_near(particles_, {wall_index_, particles_.first_wall()}, point_m, 0.0, [&](std::size_t j, double distance) {
+  for_each_near(particles_, {walls_.index, walls_.first}, point_m, 0.0, [&](std::size_t j, double distance) {
     if (distance >= least) return;
     least = distance;
     nearest = j;

@@ -49,11 +49,11 @@ RowGeometry rows(const Tank& tank, const Parameters& p) {
   return {tank.domain(), list_radius_m(p), slack_over_distance * l0, slice_over_distance * l0};
 }
 
-/// The walls' or the dummies' positions.
-std::vector<std::size_t> solids_of(const Scene& scene, bool walls) {
-  std::vector<std::size_t> chosen;
+/// Which of Scene::walls are walls, or dummies.
+std::vector<std::int32_t> solids_of(const Scene& scene, bool walls) {
+  std::vector<std::int32_t> chosen;
   for (std::size_t k = 0; k < scene.walls.size(); ++k)
-    if ((scene.walls[k].layer == 0) == walls) chosen.push_back(k);
+    if ((scene.walls[k].layer == 0) == walls) chosen.push_back(static_cast<std::int32_t>(k));
   return chosen;
 }
 
@@ -71,10 +71,9 @@ MpsSolver<Pack>::MpsSolver(const Scene& scene, const Parameters& parameters, int
       reach_{constants_.quantum_m, parameters.effective_radius_m(), list_radius_m(parameters),
              near_radius_m(parameters)},
       fluid_index_(rows(tank_, parameters)),
-      wall_index_(rows(tank_, parameters)),
-      dummy_index_(rows(tank_, parameters)),
-      wall_proximity_(wall_index_),
-      dummy_proximity_(dummy_index_),
+      walls_(rows(tank_, parameters), solids_of(scene, true)),
+      dummies_(rows(tank_, parameters), solids_of(scene, false)),
+      moving_walls_(scene),
       pressure_equation_(constants_, tank_.domain(), threads_) {
   if (scene.description.wall_layers < 3)
     throw std::invalid_argument(
@@ -83,36 +82,33 @@ MpsSolver<Pack>::MpsSolver(const Scene& scene, const Parameters& parameters, int
   place(scene);
 }
 
-/// Walls and dummies do not move: they are sorted once.
 template <class Pack>
 void MpsSolver<Pack>::place(const Scene& scene) {
-  const auto dummies = solids_of(scene, false);
-  const auto walls = solids_of(scene, true);
-  particles_.resize(dummies.size(), walls.size(), scene.fluid.size());
-  const auto place_solids = [&](const std::vector<std::size_t>& chosen, std::size_t first, RowIndex& index) {
-    std::vector<double> x, y, z;
-    for (const std::size_t k : chosen) {
-      x.push_back(scene.walls[k].position.x);
-      y.push_back(scene.walls[k].position.y);
-      z.push_back(scene.walls[k].position.z);
+  particles_.resize(dummies_.walls.size(), walls_.walls.size(), scene.fluid.size());
+  walls_.first = particles_.first_wall();
+  wall_place_.resize(scene.walls.size());
+  for (const Solids* solids : {&dummies_, &walls_}) {
+    for (std::size_t k = 0; k < solids->walls.size(); ++k) {
+      const auto wall = static_cast<std::size_t>(solids->walls[k]);
+      wall_place_[wall] = static_cast<std::int32_t>(solids->first + k);
+      particles_.position.set(solids->first + k, scene.walls[wall].position);
+      particles_.id[solids->first + k] = static_cast<std::int32_t>(scene.fluid.size() + wall);
     }
-    index.sort(x, y, z, {}, threads_);
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-      const std::size_t from = chosen[static_cast<std::size_t>(index.order()[k])];
-      particles_.position.set(first + k, scene.walls[from].position);
-      particles_.id[first + k] = static_cast<std::int32_t>(scene.fluid.size() + from);
-    }
-  };
-  place_solids(dummies, 0, dummy_index_);
-  place_solids(walls, particles_.first_wall(), wall_index_);
-  wall_proximity_ = Proximity(wall_index_);
-  dummy_proximity_ = Proximity(dummy_index_);
-  wall_normals_ = wall_normals(particles_, dummy_index_, constants_.parameters.particle_distance_m);
+  }
+  set_moving_walls(0);
+  sort_solids(dummies_);
+  sort_solids(walls_);
   for (std::size_t k = 0; k < scene.fluid.size(); ++k) {
     particles_.position.set(particles_.first_fluid() + k, scene.fluid[k]);
     particles_.id[particles_.first_fluid() + k] = static_cast<std::int32_t>(k);
   }
   particles_.encode_positions(tank_.domain(), 0, threads_);
+  const auto body = [&](std::size_t i) {
+    const WallParticle& w = scene.walls[static_cast<std::size_t>(particles_.id[i]) - scene.fluid.size()];
+    const bool moves = w.body > 0 && scene.fitted.obstacles[static_cast<std::size_t>(w.body) - 1].motion.moves();
+    return moves ? static_cast<int>(w.body) : 0;
+  };
+  wall_normals_ = wall_normals(particles_, dummies_.index, body, constants_.parameters.particle_distance_m);
   list_neighbours();
 }
 
@@ -127,9 +123,8 @@ void MpsSolver<Pack>::set_velocity(std::int32_t id, const Vec3d& velocity_m_s) {
 
 template <class Pack>
 std::int64_t MpsSolver<Pack>::memory_bytes() const {
-  return particles_.memory_bytes() + fluid_index_.memory_bytes() + wall_index_.memory_bytes() +
-         dummy_index_.memory_bytes() + wall_proximity_.memory_bytes() + dummy_proximity_.memory_bytes() +
-         list_.memory_bytes() + pressure_equation_.memory_bytes() + bytes(next_velocity_) + bytes(listed_) +
+  return particles_.memory_bytes() + fluid_index_.memory_bytes() + walls_.memory_bytes() + dummies_.memory_bytes() +
+         bytes(wall_place_) + list_.memory_bytes() + pressure_equation_.memory_bytes() + bytes(next_velocity_) + bytes(listed_) +
          bytes(wall_normals_) + bytes(leaves_);
 }
 

@@ -37,6 +37,8 @@ void MpsSolver<Pack>::move() {
     particles_.position.set(
         i, particles_.position.template at<double>(i) + constants_.dt_s * particles_.velocity.template at<double>(i));
   }
+  const double end_s = time_s_ + constants_.dt_s;
+  if (moving_walls_.travel_m(time_s_, end_s) > 0) bring_walls_to(end_s);
 }
 
 template <class Pack>
@@ -60,8 +62,8 @@ void MpsSolver<Pack>::list_rows() {
   particles_.permute_fluid(fluid_index_.order(), threads_);
   next_velocity_.resize(particles_.size());
   particles_.encode_positions(tank_.domain(), first, threads_);
-  list_.list(particles_, {fluid_index_, first}, {wall_index_, particles_.first_wall(), &wall_proximity_},
-             {dummy_index_, 0, &dummy_proximity_}, reach_, threads_);
+  list_.list(particles_, {fluid_index_, first}, {walls_.index, walls_.first, &walls_.proximity},
+             {dummies_.index, dummies_.first, &dummies_.proximity}, reach_, threads_);
   const auto listed = [&](const std::vector<double>& from, std::vector<double>& to) {
     to.assign(from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
   };

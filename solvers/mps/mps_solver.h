@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "solvers/cell_rows.h"
@@ -12,6 +13,7 @@
 #include "solvers/mps/parameters.h"
 #include "solvers/mps/particles.h"
 #include "solvers/mps/pressure_equation.h"
+#include "solvers/moving_walls.h"
 #include "solvers/phase_clock.h"
 #include "solvers/scene.h"
 #include "solvers/solver.h"
@@ -40,6 +42,9 @@ class MpsSolver final : public Solver {
   PressureReading kernel_pressure(const Vec3d& point_m) const override;
   /// The pressure of the wall particle nearest to the point.
   PressureReading wall_pressure(const Vec3d& point_m) const override;
+  VelocityReading kernel_velocity(const Vec3d& point_m) const override;
+  Vec3d wall_reaction_N(std::span<const std::int32_t> walls) const override;
+  double wall_particle_pressure_Pa(std::int32_t wall) const override;
   double volume_fraction(const Vec3d& point_m) const override;
   double smoothing_length_m() const override { return 0.5 * constants_.parameters.effective_radius_m(); }
   FluidTotals totals() const override;
@@ -57,7 +62,25 @@ class MpsSolver final : public Solver {
   void set_velocity(std::int32_t id, const Vec3d& velocity_m_s);
 
  private:
+  /// Wall or dummy particles: which of Scene::walls they are, and in what order they lie among the particles.
+  struct Solids {
+    Solids(const RowGeometry& geometry, std::vector<std::int32_t> which)
+        : walls(std::move(which)), index(geometry), proximity(index) {}
+    std::int64_t memory_bytes() const { return bytes(walls) + index.memory_bytes() + proximity.memory_bytes(); }
+
+    std::vector<std::int32_t> walls;
+    std::size_t first = 0;
+    RowIndex index;
+    Proximity proximity;
+  };
   void place(const Scene& scene);
+  void sort_solids(Solids& solids);
+  void set_moving_walls(double t_s);
+  void bring_walls_to(double t_s);
+  std::size_t place_of(std::int32_t wall) const {
+    return static_cast<std::size_t>(wall_place_[static_cast<std::size_t>(wall)]);
+  }
+  Vec3d reaction_of(std::size_t solid) const;
 
   // The phases of a step.
   void predict();
@@ -78,10 +101,10 @@ class MpsSolver final : public Solver {
   Reach reach_;
   Particles<Pack> particles_;
   RowIndex fluid_index_;
-  RowIndex wall_index_;
-  RowIndex dummy_index_;
-  Proximity wall_proximity_;
-  Proximity dummy_proximity_;
+  Solids walls_;
+  Solids dummies_;
+  MovingWalls moving_walls_;
+  std::vector<std::int32_t> wall_place_;  ///< the particle that each of Scene::walls is
   VectorField<double> wall_normals_;
   VectorField<double> listed_;  ///< where fluid particles were when neighbours were last listed   [m]
   NeighbourList<Pack> list_;

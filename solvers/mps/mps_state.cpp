@@ -18,6 +18,7 @@ void MpsSolver<Pack>::visit_state(StateArchive& archive) {
     throw std::runtime_error(fmt::format("{} fluid particles where the scene has {}", n, particles_.fluid));
   particles_.resize(particles_.dummies, particles_.walls, static_cast<std::size_t>(n));
   listed_.resize(particles_.fluid);
+  if (archive.restoring() && moving_walls_.any()) bring_walls_to(time_s_);
   const std::size_t first = particles_.first_fluid();
   archive.values("position_m", particles_.position, first, particles_.fluid);
   archive.values("listed_position_m", listed_, 0, particles_.fluid);

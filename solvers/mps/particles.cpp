@@ -26,6 +26,24 @@ void Particles<Pack>::permute_fluid(std::span<const std::int32_t> order, int thr
 }
 
 template <class Pack>
+void Particles<Pack>::permute(std::size_t first, std::span<const std::int32_t> from) {
+  const auto apply = [&](auto& values) {
+    auto moved = values;
+    for (std::size_t k = 0; k < from.size(); ++k)
+      values[first + k] = moved[first + static_cast<std::size_t>(from[k])];
+  };
+  const auto apply_to_field = [&](auto& field) {
+    apply(field.x);
+    apply(field.y);
+    apply(field.z);
+  };
+  apply_to_field(position);
+  apply_to_field(velocity);
+  apply(pressure);
+  apply(id);
+}
+
+template <class Pack>
 void Particles<Pack>::encode_positions(const Box& domain, std::size_t first, int threads) {
   const double extent = longest_edge(domain);
   const FixedPoint<Coordinate> fx(domain.lower.x, extent);

@@ -45,6 +45,9 @@ struct Particles {
   /// Fluid particle k becomes what fluid particle order[k] was; the fluid shrinks to the order's length.
   void permute_fluid(std::span<const std::int32_t> order, int threads);
 
+  /// Particle first + k becomes what particle first + from[k] was.
+  void permute(std::size_t first, std::span<const std::int32_t> from);
+
   std::int64_t memory_bytes() const;
 
  private:

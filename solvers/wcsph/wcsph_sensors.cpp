@@ -5,6 +5,7 @@
 #include "solvers/totals.h"
 #include "solvers/wcsph/equation_of_state.h"
 #include "solvers/wcsph/kernel.h"
+#include "solvers/wcsph/terms.h"
 #include "solvers/wcsph/wcsph_solver.h"
 
 namespace sluice::wcsph {
@@ -48,6 +49,68 @@ double WcsphSolver<Pack>::volume_fraction(const Vec3d& point_m) const {
   return kernel_pressure(point_m).support;
 }
 
+/// The same mean of the velocity   [m/s]
+template <class Pack>
+VelocityReading WcsphSolver<Pack>::kernel_velocity(const Vec3d& point_m) const {
+  if (!holds_point(tank_.domain(), point_m)) return {};
+  const double h = parameters_.smoothing_length_m();
+  const double normalisation = Wendland{h}.normalisation();
+  double weights = 0;
+  double filled = 0;
+  Vec3d velocities;
+  for_each_near(sorted_fluid(), point_m, [&](std::size_t j, double distance) {
+    const double W = wendland_weight(wendland_taper(distance, 0.5 / h), normalisation);
+    weights += W;
+    velocities += W * fluid_.velocity.template at<double>(j);
+    filled += W * static_cast<double>(fluid_.volume[j]);
+  });
+  return {weights > 0 ? (1 / weights) * velocities : Vec3d{}, filled};
+}
+
+/// Sum of m times Eq. (3) over wall particles, with fluid neighbours only and without gravity: by the terms' symmetry
+/// the opposite of what these particles do to the fluid.
+template <class Pack>
+Vec3d WcsphSolver<Pack>::wall_reaction_N(std::span<const std::int32_t> walls) const {
+  Vec3d sum;
+  for (const std::int32_t w : walls)
+    sum += reaction_of(static_cast<std::size_t>(wall_place_[static_cast<std::size_t>(w)]));
+  return sum;
+}
+
+template <class Pack>
+Vec3d WcsphSolver<Pack>::reaction_of(std::size_t i) const {
+  const double h = parameters_.smoothing_length_m();
+  const double rho_0 = parameters_.reference_density_kg_m3;
+  const double mass = rho_0 * std::pow(parameters_.particle_distance_m, 3);
+  const double viscosity_factor = mass * parameters_.alpha * h * parameters_.wall_friction;
+  const bool pushes_only = parameters_.walls == WallModel::extrapolated;
+  const Vec3d x = walls_.position.template at<double>(i);
+  const Vec3d u = walls_.velocity.template at<double>(i);
+  const double density = rho_0 + static_cast<double>(walls_.density[i]);
+  const auto pressure = static_cast<double>(walls_.pressure[i]);
+  Vec3d sum;
+  for_each_near(sorted_fluid(), x, [&](std::size_t j, double distance) {
+    const Vec3d r = fluid_.position.template at<double>(j) - x;
+    const double g = wendland_gradient_shape(wendland_taper(distance, 0.5 / h));
+    const auto viscosity =
+        artificial_viscosity(dot(fluid_.velocity.template at<double>(j) - u, r), distance * distance, 0.01 * h * h,
+                             density + rho_0 + static_cast<double>(fluid_.density[j]),
+                             static_cast<double>(walls_.sound[i]) + static_cast<double>(fluid_.sound[j]));
+    auto pressure_j = static_cast<double>(fluid_.pressure[j]);
+    if (pushes_only) pressure_j = std::max(pressure_j, -pressure);
+    sum += momentum_term(pressure, pressure_j, 1 / density, static_cast<double>(fluid_.volume[j]),
+                         viscosity_factor * viscosity.Pi, g) *
+           r;
+  });
+  return (-mass * wendland_gradient_constant({h})) * sum;
+}
+
+template <class Pack>
+double WcsphSolver<Pack>::wall_particle_pressure_Pa(std::int32_t wall) const {
+  const auto i = static_cast<std::size_t>(wall_place_[static_cast<std::size_t>(wall)]);
+  return static_cast<double>(walls_.pressure[i]);
+}
+
 /// Mean over the first layer of the face on which the point lies, within h of the point.
 template <class Pack>
 PressureReading WcsphSolver<Pack>::wall_pressure(const Vec3d& point_m) const {
@@ -59,7 +122,7 @@ PressureReading WcsphSolver<Pack>::wall_pressure(const Vec3d& point_m) const {
   for_each_near(sorted_walls().sorted, point_m, [&](std::size_t j, double distance) {
     const Vec3d p = walls_.position.template at<double>(j);
     const double from_face = std::abs((face.axis == 0 ? p.x : face.axis == 1 ? p.y : p.z) - face.coordinate_m);
-    if (wall_layer_[j] != 0 || distance > h || from_face > 0.75 * parameters_.particle_distance_m) return;
+    if (wall_layer_[wall_of(j)] != 0 || distance > h || from_face > 0.75 * parameters_.particle_distance_m) return;
     sum += static_cast<double>(walls_.pressure[j]);
     ++count;
   });

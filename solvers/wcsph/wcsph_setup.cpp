@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "solvers/require.h"
@@ -47,11 +48,16 @@ WcsphSolver<Pack>::WcsphSolver(const Scene& scene, const Parameters& parameters,
       constants_(parameters_, FixedPoint<typename Lanes<Pack>::Coordinate>::quantum_m(longest_edge(tank_.domain()))),
       fluid_index_(rows(tank_, parameters_)),
       wall_index_(rows(tank_, parameters_)),
-      wall_proximity_(wall_index_) {
+      wall_proximity_(wall_index_),
+      moving_walls_(scene) {
   place_walls(scene);
   place_fluid(scene);
   if (parameters_.walls == WallModel::dynamic) {
-    for (const std::int32_t i : wet_walls_) fill_hydrostatically(walls_, static_cast<std::size_t>(i));
+    const double reach_m = fluid_index_.geometry().radius_m;
+    for (const std::int32_t w : wet_walls_) {
+      const auto i = static_cast<std::size_t>(w);
+      fill_hydrostatically(walls_, i, scene.still_level_m(walls_.position.template at<double>(i), reach_m));
+    }
   }
   update_fluid_state();
   update_walls();
@@ -64,31 +70,61 @@ void WcsphSolver<Pack>::place_fluid(const Scene& scene) {
     fluid_.position.set(i, scene.fluid[i]);
     fluid_.id[i] = static_cast<std::int32_t>(i);
   }
-  for (std::size_t i = 0; i < fluid_.n; ++i) fill_hydrostatically(fluid_, i);
+  for (std::size_t i = 0; i < fluid_.n; ++i)
+    fill_hydrostatically(fluid_, i, scene.still_level_m(fluid_.position.template at<double>(i), 0));
   sort_if_due(true);
 }
 
-/// Wall particles do not move: they are sorted once.
 template <class Pack>
 void WcsphSolver<Pack>::place_walls(const Scene& scene) {
   walls_.resize(scene.walls.size());
+  first_wall_id_ = static_cast<std::int32_t>(scene.fluid.size());
   for (std::size_t i = 0; i < walls_.n; ++i) {
     walls_.position.set(i, scene.walls[i].position);
-    walls_.id[i] = static_cast<std::int32_t>(scene.fluid.size() + i);
+    walls_.id[i] = first_wall_id_ + static_cast<std::int32_t>(i);
+    wall_layer_.push_back(scene.walls[i].layer);
   }
-  wall_index_.sort(walls_.position.x, walls_.position.y, walls_.position.z, {}, threads_);
-  wall_proximity_ = Proximity(wall_index_);
-  walls_.permute(wall_index_.order(), threads_);
-  walls_.encode_positions(tank_.domain(), 0, walls_.n);
-  for (const std::int32_t old : wall_index_.order()) {
-    wall_layer_.push_back(static_cast<std::int8_t>(scene.walls[static_cast<std::size_t>(old)].layer));
-  }
+  wall_place_.resize(walls_.n);
+  std::iota(wall_place_.begin(), wall_place_.end(), 0);
+  set_moving_walls(0);
+  sort_walls();
 }
 
-/// P = rho_0 g (H_W - z) below the still level [Pa].
+/// From the order of Scene::walls, so that the sorted order at a time does not depend on the sorts before.
 template <class Pack>
-void WcsphSolver<Pack>::fill_hydrostatically(Particles<Pack>& particles, std::size_t i) const {
-  const double depth = parameters_.water_height_m - particles.position.z[i];
+void WcsphSolver<Pack>::sort_walls() {
+  VectorField<double> position;
+  gather(walls_.position, wall_place_, position);
+  wall_index_.sort(position.x, position.y, position.z, {}, threads_);
+  const std::span<const std::int32_t> order = wall_index_.order();
+  std::vector<std::int32_t> from(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) from[k] = wall_place_[static_cast<std::size_t>(order[k])];
+  walls_.permute(from, threads_);
+  for (std::size_t k = 0; k < order.size(); ++k)
+    wall_place_[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
+  wall_proximity_ = Proximity(wall_index_);
+  walls_.encode_positions(tank_.domain(), 0, walls_.n);
+  wall_travel_m_ = 0;
+  walls_sorted_at_s_ = walls_at_s_;
+}
+
+/// Bodies with a prescribed motion go to where they are at a time.
+template <class Pack>
+void WcsphSolver<Pack>::set_moving_walls(double t_s) {
+  walls_at_s_ = t_s;
+  tank_.move_obstacles(t_s);
+  moving_walls_.for_each(t_s, [&](std::int32_t wall, const Vec3d& position, const Vec3d& velocity) {
+    const auto i = static_cast<std::size_t>(wall_place_[static_cast<std::size_t>(wall)]);
+    walls_.position.set(i, position);
+    walls_.velocity.set(i, velocity);
+    walls_.encode_positions(tank_.domain(), i, i + 1);
+  });
+}
+
+/// P = rho_0 g (H - z) below the still level H, which is no higher than H_W [Pa].
+template <class Pack>
+void WcsphSolver<Pack>::fill_hydrostatically(Particles<Pack>& particles, std::size_t i, double still_level_m) const {
+  const double depth = std::min(parameters_.water_height_m, still_level_m) - particles.position.z[i];
   const double pressure = std::max(0.0, -parameters_.reference_density_kg_m3 * parameters_.gravity_m_s2.z * depth);
   particles.density[i] = static_cast<typename Lanes<Pack>::Real>(tait_density_deviation(pressure, constants_.tait));
   particles.density_previous[i] = particles.density[i];
@@ -98,8 +134,8 @@ template <class Pack>
 std::int64_t WcsphSolver<Pack>::memory_bytes() const {
   return fluid_.memory_bytes() + walls_.memory_bytes() + fluid_index_.memory_bytes() + wall_index_.memory_bytes() +
          wall_proximity_.memory_bytes() +
-         static_cast<std::int64_t>(leaves_.capacity() + wet_.capacity() + wet_walls_.capacity() * sizeof(std::int32_t) +
-                                   wall_layer_.capacity());
+         static_cast<std::int64_t>(leaves_.capacity() + wet_.capacity() + wall_layer_.capacity()) +
+         bytes(wet_walls_) + bytes(wall_place_);
 }
 
 template <class Pack>

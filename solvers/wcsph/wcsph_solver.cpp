@@ -49,8 +49,19 @@ template <class Pack>
 void WcsphSolver<Pack>::advance(double dt_s) {
   const auto form = steps_ % parameters_.restart_interval == 0 ? VerletForm::restart : VerletForm::leap;
   travel_m_ += advance_fluid(fluid_, dt_s, form, threads_);
+  move_walls(dt_s);
   if (parameters_.walls == WallModel::dynamic) advance_wall_density(walls_, dt_s, form, threads_);
   if (parameters_.walls == WallModel::extrapolated) hold_at_walls();
+}
+
+/// What a wall travels counts with what the fluid does: the search allows for how far the two move against each other.
+template <class Pack>
+void WcsphSolver<Pack>::move_walls(double dt_s) {
+  const double moved_m = moving_walls_.travel_m(time_s_, time_s_ + dt_s);
+  if (moved_m == 0) return;
+  set_moving_walls(time_s_ + dt_s);
+  travel_m_ += moved_m;
+  wall_travel_m_ += moved_m;
 }
 
 /// Extrapolated pressures alone let a particle slip between wall particles now and then. Dynamic walls are left to
@@ -85,6 +96,7 @@ void WcsphSolver<Pack>::sort_if_due(bool at_once) {
   fluid_.permute(fluid_index_.order(), threads_);
   travel_m_ = 0;
   ++sorts_;
+  if (wall_travel_m_ > 0) sort_walls();
   find_wet_walls();
 }
 

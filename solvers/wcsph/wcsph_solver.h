@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solvers/cell_rows.h"
+#include "solvers/moving_walls.h"
 #include "solvers/phase_clock.h"
 #include "solvers/scene.h"
 #include "solvers/solver.h"
@@ -34,6 +35,9 @@ class WcsphSolver final : public Solver {
   std::map<std::string, double> facts() const override;
   PressureReading kernel_pressure(const Vec3d& point_m) const override;
   PressureReading wall_pressure(const Vec3d& point_m) const override;
+  VelocityReading kernel_velocity(const Vec3d& point_m) const override;
+  Vec3d wall_reaction_N(std::span<const std::int32_t> walls) const override;
+  double wall_particle_pressure_Pa(std::int32_t wall) const override;
   double volume_fraction(const Vec3d& point_m) const override;
   double smoothing_length_m() const override { return parameters_.smoothing_length_m(); }
   FluidTotals totals() const override;
@@ -49,15 +53,21 @@ class WcsphSolver final : public Solver {
 
  private:
   Sorted<Pack> sorted_fluid() const { return {fluid_, fluid_index_, travel_m_}; }
-  SortedWalls<Pack> sorted_walls() const { return {{walls_, wall_index_, 0.0}, wall_proximity_}; }
+  SortedWalls<Pack> sorted_walls() const { return {{walls_, wall_index_, wall_travel_m_}, wall_proximity_}; }
 
   void place_fluid(const Scene& scene);
   void place_walls(const Scene& scene);
-  void fill_hydrostatically(Particles<Pack>& particles, std::size_t i) const;
+  void fill_hydrostatically(Particles<Pack>& particles, std::size_t i, double still_level_m) const;
+  void sort_walls();
+  void set_moving_walls(double t_s);
+  void visit_moving_walls(StateArchive& archive);
+  std::size_t wall_of(std::size_t i) const { return static_cast<std::size_t>(walls_.id[i] - first_wall_id_); }
+  Vec3d reaction_of(std::size_t wall_particle) const;
 
   // The phases of a step.
   StepLimits sum_rates();
   void advance(double dt_s);
+  void move_walls(double dt_s);
   void hold_at_walls();
   void sort_if_due(bool at_once = false);
   void update_fluid_state();
@@ -73,7 +83,13 @@ class WcsphSolver final : public Solver {
   RowIndex fluid_index_;
   RowIndex wall_index_;
   Proximity wall_proximity_;
-  std::vector<std::int8_t> wall_layer_;
+  MovingWalls moving_walls_;
+  std::int32_t first_wall_id_ = 0;
+  std::vector<std::int8_t> wall_layer_;   ///< in the order of Scene::walls
+  std::vector<std::int32_t> wall_place_;  ///< where each of Scene::walls is now
+  double wall_travel_m_ = 0;              ///< of the body that moved most, since walls were last sorted
+  double walls_at_s_ = 0;  ///< the time to which moving walls have been brought
+  double walls_sorted_at_s_ = 0;
   std::vector<std::uint8_t> wet_;
   std::vector<std::int32_t> wet_walls_;  ///< wall particles that fluid can reach before the next sort
   std::vector<std::uint8_t> leaves_;

@@ -103,7 +103,7 @@ Scene small_dam_break(WallModel walls) {
   SceneDescription d;
   d.tank = {{0, 0, 0}, {0.8, 0.24, 0.4}};
   d.fluid = {{{0.5, 0, 0}, {0.8, 0.24, 0.24}}};
-  d.obstacles = {{{0.2, 0.08, 0}, {0.28, 0.16, 0.08}}};
+  d.obstacles = {{.box = {{0.2, 0.08, 0}, {0.28, 0.16, 0.08}}}};
   d.particle_distance_m = 2 * l0;
   d.wall_layers = walls == WallModel::dynamic ? 1 : 3;
   return build_scene(d);

@@ -23,6 +23,7 @@ void WcsphSolver<Pack>::visit_state(StateArchive& archive) {
   archive.values("density_deviation_kg_m3", std::span(fluid_.density).first(fluid_.n));
   archive.values("density_deviation_previous_kg_m3", std::span(fluid_.density_previous).first(fluid_.n));
   archive.values("id", std::span(fluid_.id).first(fluid_.n));
+  visit_moving_walls(archive);
   archive.values("wall_density_deviation_kg_m3", std::span(walls_.density).first(walls_.n));
   archive.values("wall_density_deviation_previous_kg_m3", std::span(walls_.density_previous).first(walls_.n));
   archive.value("travel_m", travel_m_);
@@ -36,6 +37,20 @@ void WcsphSolver<Pack>::visit_state(StateArchive& archive) {
     update_fluid_state();
     update_walls();
   }
+}
+
+/// Walls that move come back into the order that they had.
+template <class Pack>
+void WcsphSolver<Pack>::visit_moving_walls(StateArchive& archive) {
+  if (!moving_walls_.any()) return;
+  archive.value("walls_sorted_at_s", walls_sorted_at_s_);
+  archive.value("wall_travel_m", wall_travel_m_);
+  if (!archive.restoring()) return;
+  const double travel_m = wall_travel_m_;
+  set_moving_walls(walls_sorted_at_s_);
+  sort_walls();
+  set_moving_walls(time_s_);
+  wall_travel_m_ = travel_m;
 }
 
 template class WcsphSolver<FloatPack>;

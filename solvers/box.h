@@ -1,0 +1,45 @@
+// Axis-parallel boxes.
+#pragma once
+
+#include <algorithm>
+
+#include "solvers/vec3.h"
+
+namespace sluice {
+
+/// An axis-parallel box [m].
+struct Box {
+  Vec3d lower;
+  Vec3d upper;
+};
+
+/// Whether a point lies in a box or on its faces.
+inline bool holds_point(const Box& b, const Vec3d& p) {
+  return p.x >= b.lower.x && p.x <= b.upper.x && p.y >= b.lower.y && p.y <= b.upper.y && p.z >= b.lower.z &&
+         p.z <= b.upper.z;
+}
+
+/// Whether a point lies in a box and not on its faces.
+inline bool holds_inside(const Box& b, const Vec3d& p) {
+  return p.x > b.lower.x && p.x < b.upper.x && p.y > b.lower.y && p.y < b.upper.y && p.z > b.lower.z && p.z < b.upper.z;
+}
+
+inline double longest_edge(const Box& b) {
+  return std::max({b.upper.x - b.lower.x, b.upper.y - b.lower.y, b.upper.z - b.lower.z});
+}
+
+inline double volume(const Box& b) {
+  return (b.upper.x - b.lower.x) * (b.upper.y - b.lower.y) * (b.upper.z - b.lower.z);
+}
+
+inline Box shifted(const Box& b, const Vec3d& by) {
+  return {b.lower + by, b.upper + by};
+}
+
+/// The smallest box around two.
+inline Box around(const Box& a, const Box& b) {
+  return {{std::min(a.lower.x, b.lower.x), std::min(a.lower.y, b.lower.y), std::min(a.lower.z, b.lower.z)},
+          {std::max(a.upper.x, b.upper.x), std::max(a.upper.y, b.upper.y), std::max(a.upper.z, b.upper.z)}};
+}
+
+}  // namespace sluice

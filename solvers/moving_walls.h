@@ -1,0 +1,56 @@
+// The wall particles of bodies that move as prescribed: where they are at a time, for every solver alike.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solvers/fields.h"
+#include "solvers/scene.h"
+
+namespace sluice {
+
+class MovingWalls {
+ public:
+  explicit MovingWalls(const Scene& scene);
+
+  bool any() const { return !particles_.empty(); }
+  /// How far the body that moves most goes between two times   [m]
+  double travel_m(double from_s, double to_s) const;
+
+  /// Calls visit(wall, position, velocity) for every particle of a body that moves; `wall` is its place in Scene::walls.
+  template <class Visit>
+  void for_each(double t_s, Visit&& visit) const {
+    for (const Particle& p : particles_) {
+      const RigidMotion& motion = motions_[p.motion];
+      visit(p.wall, p.start + motion.displacement_m(t_s), motion.velocity_at(t_s));
+    }
+  }
+
+ private:
+  struct Particle {
+    Vec3d start;
+    std::int32_t wall;
+    std::uint32_t motion;
+  };
+  std::vector<RigidMotion> motions_;
+  std::vector<Particle> particles_;
+};
+
+/// Wall particles of one kind in the order of Scene::walls, from which every sort starts, so that the sorted order at a
+/// time does not depend on the sorts before.
+struct WallOrigin {
+  std::vector<std::int32_t> walls;  ///< places in Scene::walls
+  VectorField<double> position;     ///< at the start   [m]
+
+  /// Chooses the particles for which `chosen(particle)` holds.
+  template <class Chosen>
+  WallOrigin(const Scene& scene, Chosen&& chosen) {
+    for (std::size_t k = 0; k < scene.walls.size(); ++k)
+      if (chosen(scene.walls[k])) walls.push_back(static_cast<std::int32_t>(k));
+    position.resize(walls.size());
+    for (std::size_t k = 0; k < walls.size(); ++k)
+      position.set(k, scene.walls[static_cast<std::size_t>(walls[k])].position);
+  }
+};
+
+}  // namespace sluice

@@ -1,0 +1,51 @@
+// Walls and dummy particles: their sorted order, and bodies that move.
+#include "solvers/mps/mps_solver.h"
+
+namespace sluice::mps {
+
+/// From the order of Scene::walls, so that the sorted order at a time does not depend on the sorts before.
+template <class Pack>
+void MpsSolver<Pack>::sort_solids(Solids& solids) {
+  std::vector<std::int32_t> now;
+  for (const std::int32_t wall : solids.walls) now.push_back(static_cast<std::int32_t>(place_of(wall)));
+  VectorField<double> position;
+  gather(particles_.position, now, position);
+  solids.index.sort(position.x, position.y, position.z, {}, threads_);
+  std::vector<std::int32_t> from;
+  for (const std::int32_t k : solids.index.order())
+    from.push_back(now[static_cast<std::size_t>(k)] - static_cast<std::int32_t>(solids.first));
+  particles_.permute(solids.first, from);
+  if (&solids == &walls_ && !wall_normals_.x.empty()) {
+    VectorField<double> normals;
+    gather(wall_normals_, from, normals);
+    wall_normals_.swap(normals);
+  }
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const auto wall = static_cast<std::size_t>(solids.walls[static_cast<std::size_t>(solids.index.order()[k])]);
+    wall_place_[wall] = static_cast<std::int32_t>(solids.first + k);
+  }
+  solids.proximity = Proximity(solids.index);
+}
+
+template <class Pack>
+void MpsSolver<Pack>::set_moving_walls(double t_s) {
+  tank_.move_obstacles(t_s);
+  moving_walls_.for_each(t_s, [&](std::int32_t wall, const Vec3d& position, const Vec3d& velocity) {
+    particles_.position.set(place_of(wall), position);
+    particles_.velocity.set(place_of(wall), velocity);
+  });
+}
+
+/// Bodies with a prescribed motion go to where they are at a time, and all walls into their order there.
+template <class Pack>
+void MpsSolver<Pack>::bring_walls_to(double t_s) {
+  set_moving_walls(t_s);
+  sort_solids(dummies_);
+  sort_solids(walls_);
+  particles_.encode_positions(tank_.domain(), 0, threads_);
+}
+
+template class MpsSolver<FloatPack>;
+template class MpsSolver<double>;
+
+}  // namespace sluice::mps

@@ -118,7 +118,8 @@ std::string snapshot_script_head(const Case& the_case, const SnapshotFrame& fram
   script += fmt::format("set multiplot layout {},2 margins 0.01,0.99,{:.4f},{:.4f} spacing 0.01,{:.4f}\n", frame.rows,
                         bar_px / total, 1.0 - 30.0 / total, title_px / total);
   script += edges_script(the_case.tank, "#8A979F");
-  for (const Box& box : the_case.obstacles) script += edges_script(box, "#8A979F");
+  for (const Obstacle& obstacle : the_case.obstacles)
+    if (!obstacle.motion.moves()) script += edges_script(obstacle.box, "#8A979F");
   return script;
 }
 

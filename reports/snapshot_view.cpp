@@ -15,8 +15,9 @@ constexpr double up_by_depth = 0.27;
 constexpr std::uint32_t dry_wall = 0xB9C2C8;
 
 bool in_obstacle(const Vec3d& p, const Case& the_case, double margin) {
-  return std::any_of(the_case.obstacles.begin(), the_case.obstacles.end(), [&](const Box& b) {
-    return p.x > b.lower.x - margin && p.x < b.upper.x + margin && p.y > b.lower.y - margin &&
+  return std::any_of(the_case.obstacles.begin(), the_case.obstacles.end(), [&](const Obstacle& o) {
+    const Box& b = o.box;
+    return !o.motion.moves() && p.x > b.lower.x - margin && p.x < b.upper.x + margin && p.y > b.lower.y - margin &&
            p.y < b.upper.y + margin && p.z > b.lower.z && p.z < b.upper.z + margin;
   });
 }

@@ -12,13 +12,12 @@
 
 namespace sluice {
 
-
 /// A solid box in the tank. One that moves is a rigid body with a prescribed motion, such as a gate.
 struct Obstacle {
-  Box box;           ///< where it stands at t = 0
-  std::string name;  ///< such as "block"; may be empty
-  /// A plate may be thinner than three particles; on the lattice it is then made three particles thick, so that fluid on
-  /// its two sides stays out of each other's reach.
+  Box box;             ///< where it stands at t = 0
+  std::string name{};  ///< such as "block"; may be empty
+  /// A plate may be thinner than three particles; on the lattice it is then made three particles thick, so that fluid
+  /// on its two sides stays out of each other's reach.
   bool thin = false;
   RigidMotion motion{};
 };

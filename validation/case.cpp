@@ -26,12 +26,36 @@ double shortest_side(const Box& box) {
 
 }  // namespace
 
+namespace {
+
+struct KindFacts {
+  std::string_view name;
+  std::string_view unit;
+  std::vector<std::string> models;
+};
+
+const KindFacts& facts_of(SensorKind kind) {
+  static const std::map<SensorKind, KindFacts> facts{
+      {SensorKind::pressure, {"pressure", "Pa", {"wall", "kernel", "nearest"}}},
+      {SensorKind::wave_height, {"wave_height", "m", {"column", "top"}}},
+      {SensorKind::force, {"force", "N", {"acceleration", "pressure"}}},
+      {SensorKind::velocity, {"velocity", "m_s", {"kernel"}}},
+  };
+  return facts.at(kind);
+}
+
+}  // namespace
+
 std::string_view to_string(SensorKind kind) {
-  return kind == SensorKind::pressure ? "pressure" : "wave_height";
+  return facts_of(kind).name;
 }
 
 std::string_view unit_of(SensorKind kind) {
-  return kind == SensorKind::pressure ? "Pa" : "m";
+  return facts_of(kind).unit;
+}
+
+const std::vector<std::string>& models_of(SensorKind kind) {
+  return facts_of(kind).models;
 }
 
 std::string probe_column(const CaseSensor& sensor, std::string_view model) {
@@ -76,14 +100,32 @@ std::string primary_model(const Case& c, const CaseSensor& sensor, std::string_v
   if (option == nullptr) throw std::invalid_argument(fmt::format("case {} has no solver `{}`", c.name, solver));
   const WallOption* wall = find_walls(*option, walls);
   if (wall == nullptr) throw std::invalid_argument(fmt::format("solver {} has no wall model `{}`", solver, walls));
-  return sensor.kind == SensorKind::pressure ? wall->pressure_model : wall->wave_height_model;
+  switch (sensor.kind) {
+    case SensorKind::pressure:
+      return wall->pressure_model;
+    case SensorKind::wave_height:
+      return wall->wave_height_model;
+    case SensorKind::force:
+      return wall->force_model;
+    case SensorKind::velocity:
+      break;
+  }
+  return "kernel";
 }
 
 std::string particle_distance_problem(const Case& c, double l0_m) {
   if (!(l0_m > 0)) return "must be greater than zero";
-  double shortest = shortest_side(c.tank);
-  for (const Box& fluid : c.fluid) shortest = std::min(shortest, shortest_side(fluid));
-  for (const Box& obstacle : c.obstacles) shortest = std::min(shortest, shortest_side(obstacle));
+  double deepest = 0;
+  for (const Box& fluid : c.fluid) {
+    deepest = std::max(deepest, shortest_side(fluid));
+    // A layer that is thinner than a particle is one particle deep, if that is not too far from the truth.
+    if (l0_m > 1.3 * shortest_side(fluid))
+      return fmt::format("is {} m, too large for a layer of fluid {:g} m thin (use {:g} m or less)", l0_m,
+                         shortest_side(fluid), std::floor(1.3e4 * shortest_side(fluid)) / 1e4);
+  }
+  double shortest = std::min(shortest_side(c.tank), deepest);
+  for (const Obstacle& obstacle : c.obstacles)
+    if (!obstacle.thin) shortest = std::min(shortest, shortest_side(obstacle.box));
   if (3 * l0_m <= shortest * (1 + 1e-9)) return "";
   return fmt::format("is {} m, too large for a length of {:g} m in the geometry (use {:g} m or less)", l0_m, shortest,
                      std::floor(1e4 * shortest / 3) / 1e4);

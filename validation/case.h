@@ -20,7 +20,7 @@ class CaseError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class SensorKind { pressure, wave_height };
+enum class SensorKind { pressure, wave_height, force, velocity };
 
 std::string_view to_string(SensorKind kind);
 
@@ -28,12 +28,16 @@ std::string_view to_string(SensorKind kind);
 struct CaseSensor {
   std::string name;  ///< such as "P1"
   SensorKind kind = SensorKind::pressure;
-  Vec3d position_m;      ///< wave height: the foot of the probe's vertical line, on the bed
-  Vec3d normal;          ///< unit vector into the fluid: away from the wall, or up the probe's line
+  Vec3d position_m;  ///< wave height: the foot of the probe's vertical line, on the bed; force: not used
+  /// Unit vector. Pressure and wave height: into the fluid, away from the wall, or up the probe's line; force and
+  /// velocity: the direction of the component that is read.
+  Vec3d normal;
   std::string measured;  ///< name of the measured series in the digest; empty where nothing was measured
+  std::string body{};    ///< force: name of an obstacle, or "tank"
+  FaceSet faces = 0;     ///< force: which faces of the body; all_faces: the whole body, net of its far side
 };
 
-/// "Pa" or "m".
+/// "Pa", "m", "N" or "m_s".
 std::string_view unit_of(SensorKind kind);
 
 /// The header of a column in probes.csv: `<sensor>[_<model>]_<unit>`; without a model the primary reading.
@@ -51,6 +55,7 @@ struct WallOption {
   int layers = 3;
   std::string pressure_model;                  ///< "wall", "kernel" or "nearest"
   std::string wave_height_model;               ///< "column" or "top"
+  std::string force_model{};                   ///< "acceleration" or "pressure"; empty where no force is read
   std::map<std::string, double> parameters{};  ///< where this wall model's defaults differ from the solver's
 };
 
@@ -140,13 +145,14 @@ struct Published {
 struct Case {
   std::string name;
   std::string title;
-  std::string reference;       ///< of the experiment
-  std::filesystem::path file;  ///< where it was read from
-  std::string hash;            ///< of the file's bytes, as file_hash() gives
+  std::string reference;                 ///< of the experiment
+  std::vector<std::string> assumptions;  ///< what the sources leave open, in words; every report repeats them
+  std::filesystem::path file;            ///< where it was read from
+  std::string hash;                      ///< of the file's bytes, as file_hash() gives
 
   Box tank;  ///< inner faces [m]
   std::vector<Box> fluid;
-  std::vector<Box> obstacles;
+  std::vector<Obstacle> obstacles;
   Vec3d gravity_m_s2;
   double water_height_m = 0;  ///< H_W: scale of c0 = 20 sqrt(g H_W) and of the dimensionless pressure
   double density_kg_m3 = 0;
@@ -173,12 +179,15 @@ struct Case {
 /// nullptr when the solver has no wall model of that name.
 const WallOption* find_walls(const SolverOption& solver, std::string_view walls);
 
-/// The sensor model of the primary reading ("wall", "kernel", "nearest", "column", "top").
+/// The models that can read a kind of sensor.
+const std::vector<std::string>& models_of(SensorKind kind);
+
+/// The sensor model of the primary reading ("wall", "kernel", "nearest", "column", "top", "acceleration").
 /// Throws std::invalid_argument when the case does not know the solver or its wall model.
 std::string primary_model(const Case& c, const CaseSensor& sensor, std::string_view solver, std::string_view walls);
 
 /// What is wrong with a particle distance [m] for this case, with the largest that would do; empty when it will do.
-/// Every obstacle and every body of fluid must be at least three particles across.
+/// Every obstacle and the deepest body of fluid must be at least three particles across, thin obstacles apart.
 std::string particle_distance_problem(const Case& c, double l0_m);
 
 /// The case's geometry for one particle distance [m] and number of wall layers.

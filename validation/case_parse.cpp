@@ -47,34 +47,63 @@ void refuse_repeated_name(const TomlReader& reader, const std::vector<T>& items,
 
 Box parse_box(TomlReader& reader) {
   Box box{reader.vec3("lower_m"), reader.vec3("upper_m")};
-  reader.finish();
   if (box.lower.x >= box.upper.x || box.lower.y >= box.upper.y || box.lower.z >= box.upper.z)
     reader.fail("upper_m", "does not lie above lower_m in x, y and z: a length is zero or negative (exchange them)");
   return box;
 }
 
-Box parse_box_in_tank(TomlReader reader, const Box& tank) {
+Box parse_box_in_tank(TomlReader& reader, const Box& tank) {
   Box box = parse_box(reader);
   if (!inside(tank, box.lower)) reader.fail("lower_m", "lies outside of the tank (move it inside geometry.tank)");
   if (!inside(tank, box.upper)) reader.fail("upper_m", "lies outside of the tank (move it inside geometry.tank)");
   return box;
 }
 
+// A body that moves rises out of the tank, or says when it stops.
+RigidMotion parse_motion(TomlReader& reader) {
+  RigidMotion motion;
+  if (!reader.has("velocity_m_s")) return motion;
+  motion.velocity_m_s = reader.vec3("velocity_m_s");
+  motion.start_s = reader.number_or("start_s", 0);
+  motion.stop_s = reader.number_or("stop_s", HUGE_VAL);
+  if (motion.start_s < 0) reader.fail("start_s", "must not be negative");
+  if (motion.stop_s <= motion.start_s) reader.fail("stop_s", "must come after start_s");
+  if (dot(motion.velocity_m_s, motion.velocity_m_s) == 0)
+    reader.fail("velocity_m_s", "is zero (leave it out for an obstacle that stands)");
+  const bool rises = motion.velocity_m_s.x == 0 && motion.velocity_m_s.y == 0 && motion.velocity_m_s.z > 0;
+  if (!rises && motion.stop_s == HUGE_VAL)
+    reader.fail("velocity_m_s", "does not point straight up (give stop_s, the time at which the motion ends)");
+  return motion;
+}
+
+Obstacle parse_obstacle(TomlReader& reader, const Case& c) {
+  Obstacle obstacle;
+  obstacle.box = parse_box_in_tank(reader, c.tank);
+  obstacle.name = reader.text_or("name", "");
+  if (obstacle.name == "tank") reader.fail("name", "`tank` names the tank itself (choose another)");
+  if (!obstacle.name.empty()) refuse_repeated_name(reader, c.obstacles, obstacle.name);
+  obstacle.thin = reader.flag_or("thin", false);
+  obstacle.motion = parse_motion(reader);
+  reader.finish();
+  for (const Box& fluid : c.fluid)
+    if (overlap(obstacle.box, fluid)) reader.fail("", "overlaps the fluid (leave its space out of the fluid)");
+  for (const Obstacle& other : c.obstacles)
+    if (overlap(obstacle.box, other.box)) reader.fail("", "overlaps another obstacle (let them touch at most)");
+  return obstacle;
+}
+
 void parse_geometry(TomlReader reader, Case& c) {
   TomlReader tank = reader.table("tank");
   c.tank = parse_box(tank);
+  tank.finish();
   for (TomlReader& fluid : reader.tables("fluid")) {
     c.fluid.push_back(parse_box_in_tank(fluid, c.tank));
+    fluid.finish();
     for (std::size_t other = 0; other + 1 < c.fluid.size(); ++other)
       if (overlap(c.fluid.back(), c.fluid[other]))
         fluid.fail("", fmt::format("overlaps geometry.fluid[{}] (let them touch at most)", other));
   }
-  for (TomlReader& obstacle : reader.tables("obstacles", true)) {
-    c.obstacles.push_back(parse_box_in_tank(obstacle, c.tank));
-    for (const Box& fluid : c.fluid)
-      if (overlap(c.obstacles.back(), fluid))
-        obstacle.fail("", "overlaps the fluid (leave its space out of the fluid)");
-  }
+  for (TomlReader& obstacle : reader.tables("obstacles", true)) c.obstacles.push_back(parse_obstacle(obstacle, c));
   reader.finish();
 }
 
@@ -96,25 +125,70 @@ void check_sensor_place(const TomlReader& reader, const CaseSensor& sensor, cons
   if (!inside(c.tank, sensor.position_m))
     reader.fail("position_m", "lies outside of the tank (give a point inside geometry.tank)");
   for (std::size_t k = 0; k < c.obstacles.size(); ++k)
-    if (strictly_inside(c.obstacles[k], sensor.position_m))
+    if (strictly_inside(c.obstacles[k].box, sensor.position_m))
       reader.fail("position_m", fmt::format("lies inside geometry.obstacles[{}] (move it to a face)", k));
-  const double length = std::sqrt(dot(sensor.normal, sensor.normal));
+}
+
+Vec3d parse_unit_vector(TomlReader& reader, std::string_view key) {
+  const Vec3d v = reader.vec3(key);
+  const double length = std::sqrt(dot(v, v));
   if (std::abs(length - 1) > 1e-9)
-    reader.fail("normal", fmt::format("has length {}, must be a unit vector such as [1, 0, 0]", length));
+    reader.fail(key, fmt::format("has length {}, must be a unit vector such as [1, 0, 0]", length));
+  return v;
+}
+
+// A column's name is `<sensor>[_<model>]_<unit>`: a name that begins like another sensor's could be taken for it.
+void check_sensor_name(const TomlReader& reader, const std::string& name, const Case& c) {
+  refuse_repeated_name(reader, c.sensors, name);
+  if (name.find_first_of(",\" ") != std::string::npos)
+    reader.fail("name", "has a comma, quote or blank (it becomes part of a column name in probes.csv)");
+  for (const CaseSensor& other : c.sensors)
+    if (name.starts_with(other.name + "_") || other.name.starts_with(name + "_"))
+      reader.fail("name", fmt::format("cannot be told from sensor {} by the columns of probes.csv (choose another)",
+                                      other.name));
+}
+
+FaceSet parse_faces(TomlReader& reader) {
+  if (!reader.has("faces")) return all_faces;
+  static const std::vector<std::string> names{"x-", "x+", "y-", "y+", "z-", "z+"};
+  FaceSet faces = 0;
+  for (const std::string& name : reader.texts("faces")) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) reader.fail("faces", fmt::format("unknown face `{}`{}", name, suggestion(name, names)));
+    faces = static_cast<FaceSet>(faces | (1U << static_cast<unsigned>(found - names.begin())));
+  }
+  if (faces == 0) reader.fail("faces", "is empty (leave it out for the whole body)");
+  return faces;
+}
+
+void parse_force(TomlReader& reader, CaseSensor& sensor, const Case& c) {
+  std::vector<std::string> bodies{"tank"};
+  for (const Obstacle& obstacle : c.obstacles)
+    if (!obstacle.name.empty()) bodies.push_back(obstacle.name);
+  sensor.body = one_of(reader, "body", bodies);
+  sensor.faces = parse_faces(reader);
+  sensor.normal = parse_unit_vector(reader, "direction");
 }
 
 CaseSensor parse_sensor(TomlReader& reader, const Case& c) {
   CaseSensor sensor;
   sensor.name = reader.text("name");
-  refuse_repeated_name(reader, c.sensors, sensor.name);
-  if (sensor.name.find_first_of("_,\" ") != std::string::npos)
-    reader.fail("name", "has an underscore, comma, quote or blank (it becomes part of a column name in probes.csv)");
-  const std::string kind = one_of(reader, "kind", {"pressure", "wave_height"});
-  sensor.kind = kind == "pressure" ? SensorKind::pressure : SensorKind::wave_height;
-  sensor.position_m = reader.vec3("position_m");
-  sensor.normal = reader.vec3("normal");
+  check_sensor_name(reader, sensor.name, c);
+  const std::vector<SensorKind> kinds{SensorKind::pressure, SensorKind::wave_height, SensorKind::force,
+                                      SensorKind::velocity};
+  std::vector<std::string> kind_names;
+  for (const SensorKind kind : kinds) kind_names.emplace_back(to_string(kind));
+  const std::string kind = one_of(reader, "kind", kind_names);
+  sensor.kind =
+      kinds[static_cast<std::size_t>(std::find(kind_names.begin(), kind_names.end(), kind) - kind_names.begin())];
+  if (sensor.kind == SensorKind::force) {
+    parse_force(reader, sensor, c);
+  } else {
+    sensor.position_m = reader.vec3("position_m");
+    check_sensor_place(reader, sensor, c);
+    sensor.normal = parse_unit_vector(reader, sensor.kind == SensorKind::velocity ? "direction" : "normal");
+  }
   sensor.measured = reader.text_or("measured", "");
-  check_sensor_place(reader, sensor, c);
   reader.finish();
   return sensor;
 }
@@ -142,7 +216,7 @@ std::map<std::string, double> parse_parameters(TomlReader reader, const std::str
   return parameters;
 }
 
-WallOption parse_walls(TomlReader& reader, const SolverOption& solver) {
+WallOption parse_walls(TomlReader& reader, const SolverOption& solver, bool reads_force) {
   WallOption walls;
   walls.name = reader.text("name");
   refuse_repeated_name(reader, solver.walls, walls.name);
@@ -150,17 +224,21 @@ WallOption parse_walls(TomlReader& reader, const SolverOption& solver) {
   walls.layers = reader.integer("layers");
   if (walls.layers < 1 || walls.layers > 10)
     reader.fail("layers", fmt::format("is {}, must be 1 to 10 particle layers", walls.layers));
-  walls.pressure_model = one_of(reader, "pressure_model", {"wall", "kernel", "nearest"});
-  walls.wave_height_model = one_of(reader, "wave_height_model", {"column", "top"});
+  walls.pressure_model = one_of(reader, "pressure_model", models_of(SensorKind::pressure));
+  walls.wave_height_model = one_of(reader, "wave_height_model", models_of(SensorKind::wave_height));
+  if (reads_force || reader.has("force_model"))
+    walls.force_model = one_of(reader, "force_model", models_of(SensorKind::force));
   reader.finish();
   return walls;
 }
 
-SolverOption parse_solver(TomlReader& reader, const std::vector<SolverOption>& before) {
+SolverOption parse_solver(TomlReader& reader, const Case& c) {
   SolverOption solver;
   solver.name = reader.text("name");
-  refuse_repeated_name(reader, before, solver.name);
-  for (TomlReader& walls : reader.tables("walls")) solver.walls.push_back(parse_walls(walls, solver));
+  refuse_repeated_name(reader, c.solvers, solver.name);
+  const bool reads_force =
+      std::any_of(c.sensors.begin(), c.sensors.end(), [](const CaseSensor& s) { return s.kind == SensorKind::force; });
+  for (TomlReader& walls : reader.tables("walls")) solver.walls.push_back(parse_walls(walls, solver, reads_force));
   solver.default_walls = one_of(reader, "default_walls", names_of(solver.walls));
   solver.parameters = parse_parameters(reader.table("parameters"), solver.name);
   reader.finish();
@@ -184,6 +262,7 @@ Case parse_root(TomlReader root) {
   c.name = root.text("name");
   c.title = root.text("title");
   c.reference = root.text("reference");
+  if (root.has("assumptions")) c.assumptions = root.texts("assumptions");
   parse_geometry(root.table("geometry"), c);
   parse_fluid_constants(root, c);
   for (TomlReader& sensor : root.tables("sensors")) c.sensors.push_back(parse_sensor(sensor, c));
@@ -193,7 +272,7 @@ Case parse_root(TomlReader root) {
       root.fail("measured",
                 fmt::format("is missing, but sensor {} has a measured series (name the digest's file)", sensor.name));
   parse_times(root, c);
-  for (TomlReader& solver : root.tables("solvers")) c.solvers.push_back(parse_solver(solver, c.solvers));
+  for (TomlReader& solver : root.tables("solvers")) c.solvers.push_back(parse_solver(solver, c));
   c.default_solver = c.solvers.front().name;
   for (TomlReader& tier : root.tables("tiers")) c.tiers.push_back(parse_tier(tier, c));
   for (TomlReader& group : root.tables("acceptance", true)) case_parse::parse_acceptance_group(group, c);

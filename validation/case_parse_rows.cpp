@@ -32,9 +32,7 @@ void parse_band(TomlReader& reader, AcceptanceRow& row) {
 }
 
 void check_row_model(const TomlReader& reader, const AcceptanceRow& row, SensorKind kind) {
-  const std::vector<std::string> models = kind == SensorKind::pressure
-                                              ? std::vector<std::string>{"wall", "kernel", "nearest"}
-                                              : std::vector<std::string>{"column", "top"};
+  const std::vector<std::string>& models = models_of(kind);
   if (!row.model.empty() && std::find(models.begin(), models.end(), row.model) == models.end())
     reader.fail("model", fmt::format("`{}` cannot read a {} sensor{}", row.model, to_string(kind),
                                      suggestion(row.model, models)));

@@ -207,9 +207,9 @@ TEST(Kleefsman, IsTheBenchmark) {
   EXPECT_DOUBLE_EQ(c.find_sensor("H1")->position_m.x, 0.496);
   EXPECT_DOUBLE_EQ(c.find_sensor("H3")->position_m.x, 1.488);
   for (const char* name : {"P1", "P2", "P3", "P4"})
-    EXPECT_DOUBLE_EQ(c.find_sensor(name)->position_m.x, c.obstacles.at(0).upper.x) << name;
+    EXPECT_DOUBLE_EQ(c.find_sensor(name)->position_m.x, c.obstacles.at(0).box.upper.x) << name;
   for (const char* name : {"P5", "P6", "P7", "P8"})
-    EXPECT_DOUBLE_EQ(c.find_sensor(name)->position_m.z, c.obstacles.at(0).upper.z) << name;
+    EXPECT_DOUBLE_EQ(c.find_sensor(name)->position_m.z, c.obstacles.at(0).box.upper.z) << name;
   EXPECT_EQ(primary_model(c, *c.find_sensor("P1"), "wcsph", "extrapolated"), "wall");
   EXPECT_EQ(primary_model(c, *c.find_sensor("P1"), "wcsph", "dynamic"), "kernel");
   EXPECT_EQ(primary_model(c, *c.find_sensor("H1"), "wcsph", "dynamic"), "column");

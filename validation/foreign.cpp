@@ -26,6 +26,23 @@ const std::map<std::string, double> pressure_units{{"Pa", 1},    {"hPa", 100}, {
                                                    {"kPa", 1e3}, {"bar", 1e5}, {"MPa", 1e6}};
 const std::map<std::string, double> length_units{{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}};
 
+const std::map<std::string, double> force_units{{"N", 1}, {"kN", 1e3}, {"mN", 1e-3}};
+const std::map<std::string, double> velocity_units{{"m/s", 1}, {"cm/s", 1e-2}, {"mm/s", 1e-3}};
+
+const std::map<std::string, double>& units_of(SensorKind kind) {
+  switch (kind) {
+    case SensorKind::pressure:
+      return pressure_units;
+    case SensorKind::force:
+      return force_units;
+    case SensorKind::velocity:
+      return velocity_units;
+    case SensorKind::wave_height:
+      break;
+  }
+  return length_units;
+}
+
 double factor_of(TomlReader& reader, const std::map<std::string, double>& units) {
   const std::string unit = reader.text("unit");
   if (const auto found = units.find(unit); found != units.end()) return found->second;
@@ -54,7 +71,7 @@ ForeignColumn parse_column(TomlReader& reader, const Case& c) {
   }
   ForeignColumn column;
   column.column = reader.text("column");
-  column.factor = factor_of(reader, sensor->kind == SensorKind::pressure ? pressure_units : length_units);
+  column.factor = factor_of(reader, units_of(sensor->kind));
   column.offset = reader.number_or("offset", 0);
   column.target = probe_column(*sensor);
   reader.finish();

@@ -170,6 +170,11 @@ std::unique_ptr<Sensor> make_sensor(const CaseSensor& sensor, const std::string&
     case SensorKind::wave_height:
       require_model(sensor, primary, {"column", "top"});
       return std::make_unique<WaveHeightSensor>(sensor, primary, scene, h);
+    case SensorKind::force:
+      require_model(sensor, primary, {"acceleration", "pressure"});
+      return make_force_sensor(sensor, primary, scene);
+    case SensorKind::velocity:
+      return make_velocity_probe(sensor, primary);
   }
   throw std::invalid_argument(fmt::format("sensor {}: its kind cannot be read from a solver", sensor.name));
 }

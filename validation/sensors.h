@@ -7,8 +7,17 @@
 //   pressure of the wall particle nearest to the sensor.
 // Wave height, model `column`: the level of the first gap counted from the bed upwards.
 // Wave height, model `top`: the highest level on the probe's line that is inside fluid, spray included.
+// Velocity, model `kernel`: the fluid's kernel mean of one component at a point; zero where there is too little fluid,
+// as
+//   above.
+// Force, model `acceleration`: mass times the acceleration that the fluid would give to the wall particles behind the
+//   chosen faces, in a direction (the paper's reading of WCSPH); those of the tank under the body stand in for its
+//   foot.
+// Force, model `pressure`: pressure of the faces' first-layer particles times l0^2, in the same direction (the paper's
+//   reading of MPS).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,6 +30,7 @@
 namespace sluice {
 
 struct Case;
+struct CaseSensor;
 
 /// A kernel mean counts from this share of the kernel's support on: what one particle one l0 off the point fills (0.057
 /// with 2h = 3 l0). Not higher, since near the bed dynamic walls hold fluid off from two sides: P1 of the Kleefsman
@@ -59,7 +69,7 @@ Vec3d on_fitted_face(const Scene& scene, const Vec3d& position_m, const Vec3d& n
 /// One sensor as placed in the scene, for the manifest.
 struct PlacedSensor {
   std::string name;
-  std::string kind;     ///< "pressure" or "wave_height"
+  std::string kind;     ///< as to_string(SensorKind) gives it
   std::string primary;  ///< the model repeated in the plain column
   Vec3d position_m;     ///< as the case gives it
   Vec3d placed_m;       ///< on the fitted geometry: a pressure sensor on its fitted face, a probe's foot on its bed
@@ -77,7 +87,8 @@ class Sensor {
 
 /// All sensors of a case in the case's order. Readings are taken on the fitted geometry. For a pressure sensor P1:
 /// P1_Pa (the primary model), P1_wall_Pa, P1_kernel_Pa, P1_kernel_support_1; for a wave probe H1: H1_m (the primary
-/// model), H1_column_m, H1_top_m. After them, for every case: kinetic_energy_J, potential_energy_J,
+/// model), H1_column_m, H1_top_m; for a force F: F_N, F_acceleration_N, F_pressure_N; for a velocity probe U: U_m_s,
+/// U_kernel_m_s, U_kernel_support_1. After them, for every case: kinetic_energy_J, potential_energy_J,
 /// greatest_density_ratio_1 (solvers/solver.h).
 class SensorArray {
  public:
@@ -95,5 +106,17 @@ class SensorArray {
  private:
   std::vector<std::unique_ptr<Sensor>> sensors_;
 };
+
+/// The wall particles of which a force is the sum.
+struct WallPatch {
+  std::vector<std::int32_t> behind;  ///< all layers behind the faces, and the body's foot: places in Scene::walls
+  std::vector<std::int32_t> first;   ///< first-layer particles, once for each face on which they lie
+  std::vector<Vec3d> first_normal;   ///< normals into the fluid, as many
+};
+/// Faces of an obstacle (or of the "tank") by its name. Throws std::invalid_argument when the scene has no such body.
+WallPatch wall_patch(const Scene& scene, const std::string& body, FaceSet faces);
+
+std::unique_ptr<Sensor> make_force_sensor(const CaseSensor& sensor, const std::string& primary, const Scene& scene);
+std::unique_ptr<Sensor> make_velocity_probe(const CaseSensor& sensor, const std::string& primary);
 
 }  // namespace sluice

@@ -12,7 +12,9 @@
 namespace sluice {
 
 ColumnName split_column_name(std::string_view header) {
-  const auto at = header.rfind('_');
+  // The one unit that has an underscore itself.
+  constexpr std::string_view metres_per_second = "_m_s";
+  const auto at = header.ends_with(metres_per_second) ? header.size() - metres_per_second.size() : header.rfind('_');
   if (at == std::string_view::npos) return {std::string(header), ""};
   return {std::string(header.substr(0, at)), std::string(header.substr(at + 1))};
 }

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "validation/case.h"
 #include "validation/cli/commands.h"
@@ -13,7 +14,7 @@ std::string join_names(const Case& c, SensorKind kind) {
   std::string names;
   for (const CaseSensor& sensor : c.sensors)
     if (sensor.kind == kind) names += (names.empty() ? "" : " ") + sensor.name;
-  return names.empty() ? "none" : names;
+  return names;
 }
 
 std::string solvers_of(const Case& c) {
@@ -42,8 +43,11 @@ std::string measured_of(const Case& c) {
 
 void print_case(const Case& c) {
   fmt::print("{}: {}\n", c.name, c.title);
-  fmt::print("  wave probes:      {}\n", join_names(c, SensorKind::wave_height));
-  fmt::print("  pressure sensors: {}\n", join_names(c, SensorKind::pressure));
+  for (const auto& [title, kind] :
+       {std::pair("wave probes", SensorKind::wave_height), std::pair("pressure sensors", SensorKind::pressure),
+        std::pair("forces", SensorKind::force), std::pair("velocity probes", SensorKind::velocity)})
+    if (const std::string names = join_names(c, kind); !names.empty())
+      fmt::print("  {:<17} {}\n", title + std::string(":"), names);
   fmt::print("  measured series:  {}\n", measured_of(c));
   fmt::print("  solvers:          {}\n", solvers_of(c));
   fmt::print("  tiers:            {}\n", tiers_of(c));

@@ -41,102 +41,42 @@ void for_each_fluid_cell(const SceneLattice& lattice, Visit&& visit) {
   }
 }
 
-constexpr std::int64_t no_face = std::numeric_limits<std::int64_t>::max();
-
-/// How many layers deep a cell lies behind each face of a body, by the face's bit; no_face where there is none.
-struct Depths {
-  std::array<std::int64_t, 6> behind{no_face, no_face, no_face, no_face, no_face, no_face};
-
-  void set(int axis, bool upwards, std::int64_t depth) { behind[static_cast<std::size_t>(2 * axis + upwards)] = depth; }
-  std::int64_t least() const { return *std::min_element(behind.begin(), behind.end()); }
-  /// Faces behind which the cell lies at 0 .. layers - 1.
-  FaceSet within(std::int64_t layers) const {
-    FaceSet set = 0;
-    for (std::size_t f = 0; f < behind.size(); ++f)
-      if (behind[f] >= 0 && behind[f] < layers) set = static_cast<FaceSet>(set | (1U << f));
-    return set;
-  }
-};
-
-/// Of a cell outside the tank: how deep behind the planes of its inner faces; the tank is open at the top.
-Depths tank_depths(const CellBox& tank, const Index3& c) {
-  Depths d;
+/// How many layers deep a cell lies behind the tank's inner faces (0 the first); the tank is open at the top.
+int tank_layer(const CellBox& tank, const Index3& c) {
+  std::int64_t depth = 0;
   for (int a = 0; a < 3; ++a) {
-    d.set(a, true, tank.lower[a] - c[a] - 1);
-    if (a < 2) d.set(a, false, c[a] - tank.upper[a]);
+    depth = std::max(depth, tank.lower[a] - c[a]);
+    if (a < 2) depth = std::max(depth, c[a] - tank.upper[a] + 1);
   }
-  return d;
+  return static_cast<int>(depth) - 1;
 }
 
-/// The tank's layer is that of the deepest plane, at its edges too.
-int tank_layer(const Depths& d) {
-  std::int64_t depth = -1;
-  for (const std::int64_t b : d.behind)
-    if (b != no_face) depth = std::max(depth, b);
-  return static_cast<int>(depth);
-}
-
-/// A cell in the first layer lies on the one face before which the tank's inside begins.
-FaceSet tank_faces(const CellBox& tank, const Index3& c, const Depths& d) {
-  int outside = 0;
-  for (int a = 0; a < 3; ++a) outside += c[a] < tank.lower[a] || c[a] >= tank.upper[a];
-  return outside == 1 ? d.within(1) : FaceSet{0};
-}
-
-/// Of a cell in an obstacle, or under it. A face that stands on the tank is not a wet face, unless the obstacle moves
-/// away from there.
-Depths obstacle_depths(const CellBox& obstacle, const CellBox& tank, bool moves, const Index3& c) {
-  Depths d;
+/// How many layers deep a cell lies inside an obstacle. A face that stands on the tank is not a wet face, unless the
+/// obstacle moves away from there.
+int obstacle_layer(const CellBox& obstacle, const CellBox& tank, bool moves, const Index3& c) {
+  std::int64_t depth = std::numeric_limits<std::int64_t>::max();
   for (int a = 0; a < 3; ++a) {
-    if (moves || obstacle.lower[a] > tank.lower[a]) d.set(a, false, c[a] - obstacle.lower[a]);
-    if (moves || obstacle.upper[a] < tank.upper[a]) d.set(a, true, obstacle.upper[a] - 1 - c[a]);
+    if (moves || obstacle.lower[a] > tank.lower[a]) depth = std::min(depth, c[a] - obstacle.lower[a]);
+    if (moves || obstacle.upper[a] < tank.upper[a]) depth = std::min(depth, obstacle.upper[a] - 1 - c[a]);
   }
-  return d;
+  return depth > 1000 ? 1000 : static_cast<int>(depth);
 }
 
-/// The obstacle under which a cell of the tank's floor lies: 1 + its index; 0: none.
-std::int8_t foot_of(const SceneLattice& lattice, const SceneDescription& d, const Index3& c) {
-  const CellBox& tank = lattice.tank();
-  if (c[2] >= tank.lower[2]) return 0;
-  for (std::size_t k = 0; k < lattice.obstacles().size(); ++k) {
-    const CellBox& o = lattice.obstacles()[k];
-    if (!d.obstacles[k].motion.moves() && o.lower[2] <= tank.lower[2] && c[0] >= o.lower[0] && c[0] < o.upper[0] &&
-        c[1] >= o.lower[1] && c[1] < o.upper[1])
-      return static_cast<std::int8_t>(k + 1);
-  }
-  return 0;
-}
-
-WallParticle tank_particle(const SceneLattice& lattice, const SceneDescription& d, const Index3& c) {
-  const Depths depths = tank_depths(lattice.tank(), c);
-  WallParticle w{lattice.centre(c), static_cast<std::int8_t>(tank_layer(depths)), 0, foot_of(lattice, d, c), 0, 0};
-  w.on_faces = tank_faces(lattice.tank(), c, depths);
-  w.behind_faces = depths.within(d.wall_layers);
-  if (w.foot_of > 0) {
-    const CellBox& o = lattice.obstacles()[static_cast<std::size_t>(w.foot_of) - 1];
-    w.behind_faces = obstacle_depths(o, lattice.tank(), false, {c[0], c[1], o.lower[2]}).within(d.wall_layers);
-  }
-  return w;
-}
-
-/// Calls visit(particle) for every wall particle: the tank first, then the obstacles.
+/// Calls visit(cell, layer, body) for every wall particle: the tank first, then the obstacles.
 template <class Visit>
-void for_each_wall(const SceneLattice& lattice, const SceneDescription& d, Visit&& visit) {
+void for_each_wall_cell(const SceneLattice& lattice, const SceneDescription& d, Visit&& visit) {
   const CellBox& tank = lattice.tank();
   CellBox shell = tank.grown(d.wall_layers);
   shell.upper[2] = tank.upper[2];
   for_each_cell(shell, [&](const Index3& c) {
-    if (!tank.contains(c)) visit(tank_particle(lattice, d, c));
+    if (!tank.contains(c)) visit(c, tank_layer(tank, c), 0);
   });
   for (std::size_t k = 0; k < lattice.obstacles().size(); ++k) {
     const CellBox& obstacle = lattice.obstacles()[k];
     const bool moves = d.obstacles[k].motion.moves();
     for_each_cell(obstacle, [&](const Index3& c) {
-      const Depths depths = obstacle_depths(obstacle, tank, moves, c);
-      const std::int64_t layer = depths.least();
-      if (layer >= d.wall_layers || !tank.contains(c)) return;
-      visit(WallParticle{lattice.centre(c), static_cast<std::int8_t>(layer), static_cast<std::int8_t>(k + 1), 0,
-                         depths.within(1), depths.within(d.wall_layers)});
+      const int layer = obstacle_layer(obstacle, tank, moves, c);
+      if (layer < d.wall_layers && tank.contains(c)) visit(c, layer, static_cast<int>(k) + 1);
     });
   }
 }
@@ -266,7 +206,9 @@ Scene build_scene(const SceneDescription& description) {
   const SceneLattice lattice(scene.description);
   fit(scene, lattice);
   for_each_fluid_cell(lattice, [&](const Index3& c) { scene.fluid.push_back(lattice.centre(c)); });
-  for_each_wall(lattice, description, [&](const WallParticle& w) { scene.walls.push_back(w); });
+  for_each_wall_cell(lattice, description, [&](const Index3& c, int layer, int body) {
+    scene.walls.push_back({lattice.centre(c), layer, body});
+  });
   const double l0 = description.particle_distance_m;
   scene.fluid_volume_m3 = static_cast<double>(scene.fluid.size()) * l0 * l0 * l0;
   return scene;

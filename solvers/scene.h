@@ -50,11 +50,8 @@ constexpr FaceSet all_faces = 63;
 
 struct WallParticle {
   Vec3d position;
-  std::int8_t layer = 0;     ///< 0 touches the fluid
-  std::int8_t body = 0;      ///< 0 the tank, 1 + k obstacle k
-  std::int8_t foot_of = 0;   ///< a particle of the tank under obstacle k, in its box prolonged: 1 + k
-  FaceSet on_faces = 0;      ///< faces of its body of whose first layer it is: each such face is tiled by l0 squares
-  FaceSet behind_faces = 0;  ///< faces of its body, or of the obstacle whose foot it is, of whose layers it is
+  int layer = 0;  ///< 0 touches the fluid
+  int body = 0;   ///< 0 the tank, 1 + k obstacle k
 };
 
 struct ParticleCounts {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solvers/box.h"
 #include "solvers/vec3.h"
 
 namespace sluice {
@@ -77,11 +78,13 @@ class Solver {
   virtual PressureReading wall_pressure(const Vec3d& point_m) const = 0;
   /// Kernel-weighted mean velocity of the fluid at a point.
   virtual VelocityReading kernel_velocity(const Vec3d& point_m) const = 0;
-  /// Force of the fluid on wall particles, named by their places in Scene::walls [N]: mass times the acceleration that
-  /// they would have from the fluid around them, gravity apart.
-  virtual Vec3d wall_reaction_N(std::span<const std::int32_t> walls) const = 0;
+  /// Force of the fluid within a region on wall particles, named by their places in Scene::walls [N]: mass times the
+  /// acceleration that they would have from the fluid around them, gravity apart.
+  virtual Vec3d wall_reaction_N(std::span<const std::int32_t> walls, const Box& fluid_within_m) const = 0;
   /// Pressure of one wall particle of a first layer, named likewise [Pa].
   virtual double wall_particle_pressure_Pa(std::int32_t wall) const = 0;
+  /// How far behind their faces, which lie half-way between wall and fluid particles, walls act [m].
+  virtual double wall_setback_m() const { return 0; }
   /// Smoothed volume fraction of fluid at a point: 1 inside, 0 outside, one half at a plane free surface.
   virtual double volume_fraction(const Vec3d& point_m) const = 0;
   /// The smoothing length h [m] (MPS: half the effective radius): the scale of offsets from walls.

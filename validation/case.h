@@ -20,6 +20,15 @@ class CaseError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A face of a body, named by its normal into the fluid: the tank's face x+ is its wall at lower x, an obstacle's the
+/// one at upper x. Without an axis: the whole body.
+struct BodyFace {
+  int axis = -1;
+  bool upwards = false;
+
+  bool whole_body() const { return axis < 0; }
+};
+
 enum class SensorKind { pressure, wave_height, force, velocity };
 
 std::string_view to_string(SensorKind kind);
@@ -34,7 +43,7 @@ struct CaseSensor {
   Vec3d normal;
   std::string measured;  ///< name of the measured series in the digest; empty where nothing was measured
   std::string body{};    ///< force: name of an obstacle, or "tank"
-  FaceSet faces = 0;     ///< force: which faces of the body; all_faces: the whole body, net of its far side
+  BodyFace face{};       ///< force: one face of the body, or the whole body, net of its far side
 };
 
 /// "Pa", "m", "N" or "m_s".

@@ -148,17 +148,10 @@ void check_sensor_name(const TomlReader& reader, const std::string& name, const 
                                       other.name));
 }
 
-FaceSet parse_faces(TomlReader& reader) {
-  if (!reader.has("faces")) return all_faces;
-  static const std::vector<std::string> names{"x-", "x+", "y-", "y+", "z-", "z+"};
-  FaceSet faces = 0;
-  for (const std::string& name : reader.texts("faces")) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) reader.fail("faces", fmt::format("unknown face `{}`{}", name, suggestion(name, names)));
-    faces = static_cast<FaceSet>(faces | (1U << static_cast<unsigned>(found - names.begin())));
-  }
-  if (faces == 0) reader.fail("faces", "is empty (leave it out for the whole body)");
-  return faces;
+BodyFace parse_face(TomlReader& reader) {
+  if (!reader.has("face")) return {};
+  const std::string name = one_of(reader, "face", {"x-", "x+", "y-", "y+", "z-", "z+"});
+  return {name[0] - 'x', name[1] == '+'};
 }
 
 void parse_force(TomlReader& reader, CaseSensor& sensor, const Case& c) {
@@ -166,7 +159,7 @@ void parse_force(TomlReader& reader, CaseSensor& sensor, const Case& c) {
   for (const Obstacle& obstacle : c.obstacles)
     if (!obstacle.name.empty()) bodies.push_back(obstacle.name);
   sensor.body = one_of(reader, "body", bodies);
-  sensor.faces = parse_faces(reader);
+  sensor.face = parse_face(reader);
   sensor.normal = parse_unit_vector(reader, "direction");
 }
 

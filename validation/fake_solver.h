@@ -40,7 +40,7 @@ class FakeSolver : public Solver {
   PressureReading wall_pressure(const Vec3d&) const override { return {2 * pressure_scale_ * time_s_, 1.0}; }
   VelocityReading kernel_velocity(const Vec3d&) const override { return {{3 * time_s_, 0, 0}, 1.0}; }
   /// A newton each along x.
-  Vec3d wall_reaction_N(std::span<const std::int32_t> walls) const override {
+  Vec3d wall_reaction_N(std::span<const std::int32_t> walls, const Box&) const override {
     return {static_cast<double>(walls.size()), 0, 0};
   }
   double wall_particle_pressure_Pa(std::int32_t) const override { return pressure_scale_ * time_s_; }

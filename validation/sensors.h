@@ -14,7 +14,8 @@
 //   chosen faces, in a direction (the paper's reading of WCSPH); those of the tank under the body stand in for its
 //   foot.
 // Force, model `pressure`: pressure of the faces' first-layer particles times l0^2, in the same direction (the paper's
-//   reading of MPS).
+//   reading of MPS). Where a solver's walls act behind their faces (Solver::wall_setback_m), a face that stands on the
+//   floor goes down by so much: the floor's particles in its plane take part with that share of l0.
 #pragma once
 
 #include <cstdint>
@@ -29,6 +30,7 @@
 
 namespace sluice {
 
+struct BodyFace;
 struct Case;
 struct CaseSensor;
 
@@ -107,14 +109,20 @@ class SensorArray {
   std::vector<std::unique_ptr<Sensor>> sensors_;
 };
 
-/// The wall particles of which a force is the sum.
+/// The wall particles of which a force is the sum, as places in Scene::walls.
 struct WallPatch {
-  std::vector<std::int32_t> behind;  ///< all layers behind the faces, and the body's foot: places in Scene::walls
-  std::vector<std::int32_t> first;   ///< first-layer particles, once for each face on which they lie
-  std::vector<Vec3d> first_normal;   ///< normals into the fluid, as many
+  std::vector<std::int32_t> behind;  ///< of all layers, back to a plane behind the face; the body's foot among them
+  /// What is cut off there is cut off for the fluid too: around the body's edges fluid behind the plane pushes
+  /// particles before it and the other way about, and only without both is the sum the pressure times the face's area.
+  Box fluid_within_m;
+  std::vector<std::int32_t> first;  ///< first-layer particles, once for each face on which they lie
+  std::vector<Vec3d> first_normal;  ///< normals into the fluid, as many
+  /// The floor's particles in line with the faces' columns, for solvers whose floor lies lower than it is drawn.
+  std::vector<std::int32_t> foot;
+  std::vector<Vec3d> foot_normal;
 };
-/// Faces of an obstacle (or of the "tank") by its name. Throws std::invalid_argument when the scene has no such body.
-WallPatch wall_patch(const Scene& scene, const std::string& body, FaceSet faces);
+/// `body` is an obstacle's name or "tank". Throws std::invalid_argument when the scene has no such body.
+WallPatch wall_patch(const Scene& scene, const std::string& body, const BodyFace& face);
 
 std::unique_ptr<Sensor> make_force_sensor(const CaseSensor& sensor, const std::string& primary, const Scene& scene);
 std::unique_ptr<Sensor> make_velocity_probe(const CaseSensor& sensor, const std::string& primary);

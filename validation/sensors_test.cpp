@@ -57,7 +57,7 @@ class Particles : public Solver {
     return {500, 1};
   }
   VelocityReading kernel_velocity(const Vec3d&) const override { return {{2, 0, -1}, kernel_support}; }
-  Vec3d wall_reaction_N(std::span<const std::int32_t> walls) const override {
+  Vec3d wall_reaction_N(std::span<const std::int32_t> walls, const Box&) const override {
     return {static_cast<double>(walls.size()), 0, 0};
   }
   double wall_particle_pressure_Pa(std::int32_t) const override { return 700; }

@@ -68,28 +68,29 @@ VelocityReading MpsSolver<Pack>::kernel_velocity(const Vec3d& point_m) const {
 }
 
 template <class Pack>
-Vec3d MpsSolver<Pack>::wall_reaction_N(std::span<const std::int32_t> walls) const {
+Vec3d MpsSolver<Pack>::wall_reaction_N(std::span<const std::int32_t> walls, const Box& fluid_within_m) const {
   Vec3d sum;
-  for (const std::int32_t wall : walls) sum += reaction_of(place_of(wall));
+  for (const std::int32_t wall : walls) sum += reaction_of(place_of(wall), fluid_within_m);
   return sum;
 }
 
 /// Mass times the acceleration by a pressure gradient with P_i + P_j in the place of P_j - P_i, in which what two
-/// particles do to each other is opposite and equal (Eq. 18 has no such symmetry); summed over the layers of a plane wall
-/// under one pressure it is that pressure times the area. A dummy has no pressure of its own: it takes its neighbour's.
+/// particles do to each other is opposite and equal (Eq. 18 has no such symmetry); summed over the layers of a plane
+/// wall under one pressure it is that pressure times the area. A dummy has no pressure of its own: it takes its
+/// neighbour's.
 template <class Pack>
-Vec3d MpsSolver<Pack>::reaction_of(std::size_t i) const {
+Vec3d MpsSolver<Pack>::reaction_of(std::size_t i, const Box& fluid_within_m) const {
   const double l0 = constants_.parameters.particle_distance_m;
   const double radius = constants_.parameters.effective_radius_m();
   const Vec3d x = particles_.position.template at<double>(i);
   Vec3d sum;
-  for_each_near(particles_, {fluid_index_, particles_.first_fluid()}, x, travel_m_,
-                [&](std::size_t j, double distance) {
-                  if (distance >= radius) return;
-                  const double P_i = particles_.is_dummy(i) ? particles_.pressure[j] : particles_.pressure[i];
-                  sum += gradient_term(-P_i, particles_.pressure[j], particles_.position.template at<double>(j) - x,
-                                       distance * distance, weight(distance, radius));
-                });
+  for_each_near(
+      particles_, {fluid_index_, particles_.first_fluid()}, x, travel_m_, [&](std::size_t j, double distance) {
+        const Vec3d x_j = particles_.position.template at<double>(j);
+        if (distance >= radius || !holds_point(fluid_within_m, x_j)) return;
+        const double P_i = particles_.is_dummy(i) ? particles_.pressure[j] : particles_.pressure[i];
+        sum += gradient_term(-P_i, particles_.pressure[j], x_j - x, distance * distance, weight(distance, radius));
+      });
   return (-l0 * l0 * l0 * 3 / constants_.lattice.number_density) * sum;
 }
 

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "solvers/cell_rows.h"
+#include "solvers/moving_walls.h"
 #include "solvers/mps/collisions.h"
 #include "solvers/mps/neighbours.h"
 #include "solvers/mps/operators.h"
 #include "solvers/mps/parameters.h"
 #include "solvers/mps/particles.h"
 #include "solvers/mps/pressure_equation.h"
-#include "solvers/moving_walls.h"
 #include "solvers/phase_clock.h"
 #include "solvers/scene.h"
 #include "solvers/solver.h"
@@ -43,8 +43,11 @@ class MpsSolver final : public Solver {
   /// The pressure of the wall particle nearest to the point.
   PressureReading wall_pressure(const Vec3d& point_m) const override;
   VelocityReading kernel_velocity(const Vec3d& point_m) const override;
-  Vec3d wall_reaction_N(std::span<const std::int32_t> walls) const override;
+  Vec3d wall_reaction_N(std::span<const std::int32_t> walls, const Box& fluid_within_m) const override;
   double wall_particle_pressure_Pa(std::int32_t wall) const override;
+  /// Walls act where their particles are, and the free surface (P = 0) lies where its particles are: the pressure at
+  /// the bottom of n layers is that of n l0, and so is their depth.
+  double wall_setback_m() const override { return 0.5 * constants_.parameters.particle_distance_m; }
   double volume_fraction(const Vec3d& point_m) const override;
   double smoothing_length_m() const override { return 0.5 * constants_.parameters.effective_radius_m(); }
   FluidTotals totals() const override;
@@ -80,7 +83,7 @@ class MpsSolver final : public Solver {
   std::size_t place_of(std::int32_t wall) const {
     return static_cast<std::size_t>(wall_place_[static_cast<std::size_t>(wall)]);
   }
-  Vec3d reaction_of(std::size_t solid) const;
+  Vec3d reaction_of(std::size_t solid, const Box& fluid_within_m) const;
 
   // The phases of a step.
   void predict();

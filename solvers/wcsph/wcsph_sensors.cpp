@@ -70,15 +70,15 @@ VelocityReading WcsphSolver<Pack>::kernel_velocity(const Vec3d& point_m) const {
 /// Sum of m times Eq. (3) over wall particles, with fluid neighbours only and without gravity: by the terms' symmetry
 /// the opposite of what these particles do to the fluid.
 template <class Pack>
-Vec3d WcsphSolver<Pack>::wall_reaction_N(std::span<const std::int32_t> walls) const {
+Vec3d WcsphSolver<Pack>::wall_reaction_N(std::span<const std::int32_t> walls, const Box& fluid_within_m) const {
   Vec3d sum;
   for (const std::int32_t w : walls)
-    sum += reaction_of(static_cast<std::size_t>(wall_place_[static_cast<std::size_t>(w)]));
+    sum += reaction_of(static_cast<std::size_t>(wall_place_[static_cast<std::size_t>(w)]), fluid_within_m);
   return sum;
 }
 
 template <class Pack>
-Vec3d WcsphSolver<Pack>::reaction_of(std::size_t i) const {
+Vec3d WcsphSolver<Pack>::reaction_of(std::size_t i, const Box& fluid_within_m) const {
   const double h = parameters_.smoothing_length_m();
   const double rho_0 = parameters_.reference_density_kg_m3;
   const double mass = rho_0 * std::pow(parameters_.particle_distance_m, 3);
@@ -90,7 +90,9 @@ Vec3d WcsphSolver<Pack>::reaction_of(std::size_t i) const {
   const auto pressure = static_cast<double>(walls_.pressure[i]);
   Vec3d sum;
   for_each_near(sorted_fluid(), x, [&](std::size_t j, double distance) {
-    const Vec3d r = fluid_.position.template at<double>(j) - x;
+    const Vec3d x_j = fluid_.position.template at<double>(j);
+    if (!holds_point(fluid_within_m, x_j)) return;
+    const Vec3d r = x_j - x;
     const double g = wendland_gradient_shape(wendland_taper(distance, 0.5 / h));
     const auto viscosity =
         artificial_viscosity(dot(fluid_.velocity.template at<double>(j) - u, r), distance * distance, 0.01 * h * h,

@@ -82,7 +82,7 @@ void WcsphSolver<Pack>::place_walls(const Scene& scene) {
   for (std::size_t i = 0; i < walls_.n; ++i) {
     walls_.position.set(i, scene.walls[i].position);
     walls_.id[i] = first_wall_id_ + static_cast<std::int32_t>(i);
-    wall_layer_.push_back(scene.walls[i].layer);
+    wall_layer_.push_back(static_cast<std::int8_t>(scene.walls[i].layer));
   }
   wall_place_.resize(walls_.n);
   std::iota(wall_place_.begin(), wall_place_.end(), 0);
@@ -134,8 +134,8 @@ template <class Pack>
 std::int64_t WcsphSolver<Pack>::memory_bytes() const {
   return fluid_.memory_bytes() + walls_.memory_bytes() + fluid_index_.memory_bytes() + wall_index_.memory_bytes() +
          wall_proximity_.memory_bytes() +
-         static_cast<std::int64_t>(leaves_.capacity() + wet_.capacity() + wall_layer_.capacity()) +
-         bytes(wet_walls_) + bytes(wall_place_);
+         static_cast<std::int64_t>(leaves_.capacity() + wet_.capacity() + wall_layer_.capacity()) + bytes(wet_walls_) +
+         bytes(wall_place_);
 }
 
 template <class Pack>

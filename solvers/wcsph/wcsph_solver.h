@@ -36,7 +36,7 @@ class WcsphSolver final : public Solver {
   PressureReading kernel_pressure(const Vec3d& point_m) const override;
   PressureReading wall_pressure(const Vec3d& point_m) const override;
   VelocityReading kernel_velocity(const Vec3d& point_m) const override;
-  Vec3d wall_reaction_N(std::span<const std::int32_t> walls) const override;
+  Vec3d wall_reaction_N(std::span<const std::int32_t> walls, const Box& fluid_within_m) const override;
   double wall_particle_pressure_Pa(std::int32_t wall) const override;
   double volume_fraction(const Vec3d& point_m) const override;
   double smoothing_length_m() const override { return parameters_.smoothing_length_m(); }
@@ -62,7 +62,7 @@ class WcsphSolver final : public Solver {
   void set_moving_walls(double t_s);
   void visit_moving_walls(StateArchive& archive);
   std::size_t wall_of(std::size_t i) const { return static_cast<std::size_t>(walls_.id[i] - first_wall_id_); }
-  Vec3d reaction_of(std::size_t wall_particle) const;
+  Vec3d reaction_of(std::size_t wall_particle, const Box& fluid_within_m) const;
 
   // The phases of a step.
   StepLimits sum_rates();
@@ -88,7 +88,7 @@ class WcsphSolver final : public Solver {
   std::vector<std::int8_t> wall_layer_;   ///< in the order of Scene::walls
   std::vector<std::int32_t> wall_place_;  ///< where each of Scene::walls is now
   double wall_travel_m_ = 0;              ///< of the body that moved most, since walls were last sorted
-  double walls_at_s_ = 0;  ///< the time to which moving walls have been brought
+  double walls_at_s_ = 0;                 ///< the time to which moving walls have been brought
   double walls_sorted_at_s_ = 0;
   std::vector<std::uint8_t> wet_;
   std::vector<std::int32_t> wet_walls_;  ///< wall particles that fluid can reach before the next sort

@@ -51,13 +51,45 @@ int tank_layer(const CellBox& tank, const Index3& c) {
   return static_cast<int>(depth) - 1;
 }
 
-/// How many layers deep a cell lies inside an obstacle. A face that stands on the tank is not a wet face, unless the
-/// obstacle moves away from there.
-int obstacle_layer(const CellBox& obstacle, const CellBox& tank, bool moves, const Index3& c) {
+/// Which faces of an obstacle fluid can touch, by axis.
+struct WetFaces {
+  std::array<bool, 3> lower{};
+  std::array<bool, 3> upper{};
+};
+
+/// Whether two boxes share a piece of the plane at which one ends and the other begins.
+bool abut(const CellBox& a, const CellBox& b, int axis, bool at_upper) {
+  if (at_upper ? a.upper[axis] != b.lower[axis] : a.lower[axis] != b.upper[axis]) return false;
+  for (int other = 0; other < 3; ++other)
+    if (other != axis && (a.lower[other] >= b.upper[other] || b.lower[other] >= a.upper[other])) return false;
+  return true;
+}
+
+/// A face that stands on the tank stays dry unless the obstacle moves away from there. So do the sides of a body that
+/// slides between others, such as a gate in its frame.
+WetFaces wet_faces(const SceneLattice& lattice, const SceneDescription& d, std::size_t k) {
+  const CellBox& o = lattice.obstacles()[k];
+  const RigidMotion& motion = d.obstacles[k].motion;
+  const auto slides_along_another = [&](int axis, bool at_upper) {
+    if (!motion.moves() || component(motion.velocity_m_s, axis) != 0) return false;
+    return std::any_of(lattice.obstacles().begin(), lattice.obstacles().end(),
+                       [&](const CellBox& other) { return abut(o, other, axis, at_upper); });
+  };
+  WetFaces wet;
+  for (int a = 0; a < 3; ++a) {
+    const double v = motion.moves() ? component(motion.velocity_m_s, a) : 0.0;
+    wet.lower[a] = v > 0 || (o.lower[a] > lattice.tank().lower[a] && !slides_along_another(a, false));
+    wet.upper[a] = v < 0 || (o.upper[a] < lattice.tank().upper[a] && !slides_along_another(a, true));
+  }
+  return wet;
+}
+
+/// How many layers deep a cell lies inside an obstacle.
+int obstacle_layer(const CellBox& obstacle, const WetFaces& wet, const Index3& c) {
   std::int64_t depth = std::numeric_limits<std::int64_t>::max();
   for (int a = 0; a < 3; ++a) {
-    if (moves || obstacle.lower[a] > tank.lower[a]) depth = std::min(depth, c[a] - obstacle.lower[a]);
-    if (moves || obstacle.upper[a] < tank.upper[a]) depth = std::min(depth, obstacle.upper[a] - 1 - c[a]);
+    if (wet.lower[a]) depth = std::min(depth, c[a] - obstacle.lower[a]);
+    if (wet.upper[a]) depth = std::min(depth, obstacle.upper[a] - 1 - c[a]);
   }
   return depth > 1000 ? 1000 : static_cast<int>(depth);
 }
@@ -73,9 +105,9 @@ void for_each_wall_cell(const SceneLattice& lattice, const SceneDescription& d, 
   });
   for (std::size_t k = 0; k < lattice.obstacles().size(); ++k) {
     const CellBox& obstacle = lattice.obstacles()[k];
-    const bool moves = d.obstacles[k].motion.moves();
+    const WetFaces wet = wet_faces(lattice, d, k);
     for_each_cell(obstacle, [&](const Index3& c) {
-      const int layer = obstacle_layer(obstacle, tank, moves, c);
+      const int layer = obstacle_layer(obstacle, wet, c);
       if (layer < d.wall_layers && tank.contains(c)) visit(c, layer, static_cast<int>(k) + 1);
     });
   }
@@ -123,12 +155,12 @@ std::int64_t count_wall_cells(const SceneLattice& lattice, const SceneDescriptio
   double total = shell.cells() - tank.cells();
   for (std::size_t k = 0; k < lattice.obstacles().size(); ++k) {
     const CellBox obstacle = lattice.obstacles()[k].shared_with(tank);
-    const bool moves = d.obstacles[k].motion.moves();
+    const WetFaces wet = wet_faces(lattice, d, k);
     CellBox core = obstacle;
     bool hollow = true;
     for (int a = 0; a < 3; ++a) {
-      if (moves || obstacle.lower[a] > tank.lower[a]) core.lower[a] += d.wall_layers;
-      if (moves || obstacle.upper[a] < tank.upper[a]) core.upper[a] -= d.wall_layers;
+      if (wet.lower[a]) core.lower[a] += d.wall_layers;
+      if (wet.upper[a]) core.upper[a] -= d.wall_layers;
       hollow = hollow && core.upper[a] > core.lower[a];
     }
     total += obstacle.cells() - (hollow ? core.cells() : 0.0);

@@ -102,8 +102,9 @@ CellBox SceneLattice::nearest(const Obstacle& o, const std::string& name) const 
   for (int a = 0; a < 3; ++a) {
     c.lower[a] = std::llround(in_cells(component(o.box.lower, a), a));
     c.upper[a] = std::llround(in_cells(component(o.box.upper, a), a));
-    if (c.upper[a] - c.lower[a] < least_plate_cells) thicken(c, o.box, a);
   }
+  for (int a = 0; a < 3; ++a)
+    if (c.upper[a] - c.lower[a] < least_plate_cells) thicken(c, o.box, a);
   return c;
 }
 

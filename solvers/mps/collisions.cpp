@@ -99,22 +99,25 @@ std::int64_t collide(const Particles<Pack>& p, const VectorField<double>& wall_n
 }
 
 template <class Pack>
-VectorField<double> wall_normals(const Particles<Pack>& p, const RowIndex& dummies,
-                                 const std::function<int(std::size_t)>& body, double particle_distance_m) {
+VectorField<double> wall_normals(const Particles<Pack>& p, const SolidSets& solids, double particle_distance_m) {
   VectorField<double> normals;
   normals.resize(p.walls);
   const double support_m = 1.75 * particle_distance_m;  // the layer behind, with its corners
   for (std::size_t w = 0; w < p.walls; ++w) {
-    const Vec3d x = p.position.template at<double>(p.first_wall() + w);
-    const int own_body = body(p.first_wall() + w);
+    const std::size_t i = p.first_wall() + w;
+    const Vec3d x = p.position.template at<double>(i);
     Vec3d sum;
-    for (const Run& run : dummies.neighbours(x, 0.0)) {
-      for (auto j = static_cast<std::size_t>(run.begin); j < static_cast<std::size_t>(run.end); ++j) {
-        const Vec3d r = p.position.template at<double>(j) - x;
-        const double distance = std::sqrt(dot(r, r));
-        if (distance < support_m && body(j) == own_body) sum += (-1 / distance) * r;
-      }
-    }
+    const auto add = [&](std::size_t j) {
+      const Vec3d r = p.position.template at<double>(j) - x;
+      const double distance = std::sqrt(dot(r, r));
+      if (distance < support_m) sum += (-1 / distance) * r;
+    };
+    for (const Run& run : solids.dummies.neighbours(x, 0.0))
+      for (auto j = static_cast<std::size_t>(run.begin); j < static_cast<std::size_t>(run.end); ++j) add(j);
+    const int body = solids.moving_body(i);
+    for (const Run& run : solids.walls.neighbours(x, 0.0))
+      for (auto k = static_cast<std::size_t>(run.begin); k < static_cast<std::size_t>(run.end); ++k)
+        if (solids.moving_body(p.first_wall() + k) != body) add(p.first_wall() + k);
     const double length = std::sqrt(dot(sum, sum));
     normals.set(w, length > 0 ? (1 / length) * sum : sum);
   }
@@ -125,9 +128,7 @@ template std::int64_t collide(const Particles<double>&, const VectorField<double
                               const OperatorConstants&, VectorField<double>&, int);
 template std::int64_t collide(const Particles<FloatPack>&, const VectorField<double>&, const NeighbourList<FloatPack>&,
                               const OperatorConstants&, VectorField<float>&, int);
-template VectorField<double> wall_normals(const Particles<double>&, const RowIndex&,
-                                          const std::function<int(std::size_t)>&, double);
-template VectorField<double> wall_normals(const Particles<FloatPack>&, const RowIndex&,
-                                          const std::function<int(std::size_t)>&, double);
+template VectorField<double> wall_normals(const Particles<double>&, const SolidSets&, double);
+template VectorField<double> wall_normals(const Particles<FloatPack>&, const SolidSets&, double);
 
 }  // namespace sluice::mps

@@ -28,10 +28,17 @@ std::int64_t collide(const Particles<Pack>& particles, const VectorField<double>
 /// Within this distance two particles, or a particle and a wall, may meet in the next step   [m]
 double collision_reach_m(const Parameters& parameters);
 
-/// Unit normals of the wall particles into the fluid: away from the dummy particles behind them. `body(i)` tells apart
-/// bodies that move against each other: only dummies of a wall particle's own body count.
+/// The solids as they lie now.
+struct SolidSets {
+  const RowIndex& dummies;  ///< particle k is particle k of the run
+  const RowIndex& walls;    ///< particle k is particle first_wall() + k
+  /// Which body with a motion of its own each wall particle belongs to; 0: none, as all that stand still together.
+  std::function<int(std::size_t)> moving_body;
+};
+
+/// Unit normals of the wall particles into the fluid: away from the dummy particles behind them, and from walls of
+/// bodies that move against their own, so that a shut gate and its frame have one plane normal.
 template <class Pack>
-VectorField<double> wall_normals(const Particles<Pack>& particles, const RowIndex& dummies,
-                                 const std::function<int(std::size_t)>& body, double particle_distance_m);
+VectorField<double> wall_normals(const Particles<Pack>& particles, const SolidSets& solids, double particle_distance_m);
 
 }  // namespace sluice::mps

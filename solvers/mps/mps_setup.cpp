@@ -85,6 +85,7 @@ MpsSolver<Pack>::MpsSolver(const Scene& scene, const Parameters& parameters, int
 template <class Pack>
 void MpsSolver<Pack>::place(const Scene& scene) {
   particles_.resize(dummies_.walls.size(), walls_.walls.size(), scene.fluid.size());
+  first_wall_id_ = static_cast<std::int32_t>(scene.fluid.size());
   walls_.first = particles_.first_wall();
   wall_place_.resize(scene.walls.size());
   for (const Solids* solids : {&dummies_, &walls_}) {
@@ -95,6 +96,14 @@ void MpsSolver<Pack>::place(const Scene& scene) {
       particles_.id[solids->first + k] = static_cast<std::int32_t>(scene.fluid.size() + wall);
     }
   }
+  if (moving_walls_.any()) {
+    moving_body_.resize(scene.walls.size());
+    for (std::size_t k = 0; k < scene.walls.size(); ++k) {
+      const int body = scene.walls[k].body;
+      const bool moves = body > 0 && scene.fitted.obstacles[static_cast<std::size_t>(body) - 1].motion.moves();
+      moving_body_[k] = static_cast<std::int8_t>(moves ? body : 0);
+    }
+  }
   set_moving_walls(0);
   sort_solids(dummies_);
   sort_solids(walls_);
@@ -103,12 +112,7 @@ void MpsSolver<Pack>::place(const Scene& scene) {
     particles_.id[particles_.first_fluid() + k] = static_cast<std::int32_t>(k);
   }
   particles_.encode_positions(tank_.domain(), 0, threads_);
-  const auto body = [&](std::size_t i) {
-    const WallParticle& w = scene.walls[static_cast<std::size_t>(particles_.id[i]) - scene.fluid.size()];
-    const bool moves = w.body > 0 && scene.fitted.obstacles[static_cast<std::size_t>(w.body) - 1].motion.moves();
-    return moves ? static_cast<int>(w.body) : 0;
-  };
-  wall_normals_ = wall_normals(particles_, dummies_.index, body, constants_.parameters.particle_distance_m);
+  find_wall_normals();
   list_neighbours();
 }
 
@@ -124,8 +128,8 @@ void MpsSolver<Pack>::set_velocity(std::int32_t id, const Vec3d& velocity_m_s) {
 template <class Pack>
 std::int64_t MpsSolver<Pack>::memory_bytes() const {
   return particles_.memory_bytes() + fluid_index_.memory_bytes() + walls_.memory_bytes() + dummies_.memory_bytes() +
-         bytes(wall_place_) + list_.memory_bytes() + pressure_equation_.memory_bytes() + bytes(next_velocity_) + bytes(listed_) +
-         bytes(wall_normals_) + bytes(leaves_);
+         bytes(wall_place_) + list_.memory_bytes() + pressure_equation_.memory_bytes() + bytes(next_velocity_) +
+         bytes(listed_) + bytes(wall_normals_) + bytes(leaves_);
 }
 
 template <class Pack>

@@ -80,6 +80,7 @@ class MpsSolver final : public Solver {
   void sort_solids(Solids& solids);
   void set_moving_walls(double t_s);
   void bring_walls_to(double t_s);
+  void find_wall_normals();
   std::size_t place_of(std::int32_t wall) const {
     return static_cast<std::size_t>(wall_place_[static_cast<std::size_t>(wall)]);
   }
@@ -108,6 +109,8 @@ class MpsSolver final : public Solver {
   Solids dummies_;
   MovingWalls moving_walls_;
   std::vector<std::int32_t> wall_place_;  ///< the particle that each of Scene::walls is
+  std::int32_t first_wall_id_ = 0;
+  std::vector<std::int8_t> moving_body_;  ///< of each of Scene::walls, 0: none; empty where nothing moves
   VectorField<double> wall_normals_;
   VectorField<double> listed_;  ///< where fluid particles were when neighbours were last listed   [m]
   NeighbourList<Pack> list_;

@@ -15,11 +15,6 @@ void MpsSolver<Pack>::sort_solids(Solids& solids) {
   for (const std::int32_t k : solids.index.order())
     from.push_back(now[static_cast<std::size_t>(k)] - static_cast<std::int32_t>(solids.first));
   particles_.permute(solids.first, from);
-  if (&solids == &walls_ && !wall_normals_.x.empty()) {
-    VectorField<double> normals;
-    gather(wall_normals_, from, normals);
-    wall_normals_.swap(normals);
-  }
   for (std::size_t k = 0; k < from.size(); ++k) {
     const auto wall = static_cast<std::size_t>(solids.walls[static_cast<std::size_t>(solids.index.order()[k])]);
     wall_place_[wall] = static_cast<std::int32_t>(solids.first + k);
@@ -42,7 +37,19 @@ void MpsSolver<Pack>::bring_walls_to(double t_s) {
   set_moving_walls(t_s);
   sort_solids(dummies_);
   sort_solids(walls_);
+  find_wall_normals();
   particles_.encode_positions(tank_.domain(), 0, threads_);
+}
+
+template <class Pack>
+void MpsSolver<Pack>::find_wall_normals() {
+  const auto moving_body = [&](std::size_t i) {
+    return moving_body_.empty()
+               ? 0
+               : static_cast<int>(moving_body_[static_cast<std::size_t>(particles_.id[i] - first_wall_id_)]);
+  };
+  wall_normals_ = wall_normals(particles_, SolidSets{dummies_.index, walls_.index, moving_body},
+                               constants_.parameters.particle_distance_m);
 }
 
 template class MpsSolver<FloatPack>;

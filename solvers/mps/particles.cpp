@@ -29,8 +29,7 @@ template <class Pack>
 void Particles<Pack>::permute(std::size_t first, std::span<const std::int32_t> from) {
   const auto apply = [&](auto& values) {
     auto moved = values;
-    for (std::size_t k = 0; k < from.size(); ++k)
-      values[first + k] = moved[first + static_cast<std::size_t>(from[k])];
+    for (std::size_t k = 0; k < from.size(); ++k) values[first + k] = moved[first + static_cast<std::size_t>(from[k])];
   };
   const auto apply_to_field = [&](auto& field) {
     apply(field.x);

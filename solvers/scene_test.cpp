@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -87,6 +88,66 @@ TEST(Scene, AnObstacleThatVanishesIsAnError) {
   } catch (const std::invalid_argument& e) {
     EXPECT_NE(std::string(e.what()).find("obstacle[0]"), std::string::npos) << e.what();
   }
+}
+
+/// A wall with a gate in it, thinner than three particles.
+SceneDescription gate_in_wall(double l0) {
+  SceneDescription d;
+  d.tank = {{0, 0, 0}, {1, 0.4, 0.3}};
+  d.fluid = {{{0.6, 0, 0}, {1, 0.4, 0.1}}, {{0, 0, 0}, {0.575, 0.4, 0.02}}};
+  const auto plate = [](double y0, double y1) {
+    return Obstacle{.box = {{0.575, y0, 0}, {0.6, y1, 0.3}}, .thin = true};
+  };
+  d.obstacles = {plate(0, 0.1), plate(0.1, 0.3), plate(0.3, 0.4)};
+  d.obstacles[1].motion = {{0, 0, 1}, 0, std::numeric_limits<double>::infinity()};
+  d.particle_distance_m = l0;
+  return d;
+}
+
+TEST(Scene, PlatesAreThreeParticlesThickAtLeastAndTakeNoneOfTheFluidsSpaceIfTheyNeedNot) {
+  SceneDescription d = gate_in_wall(0.02);
+  d.fluid.pop_back();
+  const Scene scene = build_scene(d);
+  for (const Obstacle& o : scene.fitted.obstacles) {
+    EXPECT_NEAR(o.box.lower.x, 0.54, 1e-9);
+    EXPECT_NEAR(o.box.upper.x, 0.60, 1e-9);
+  }
+  EXPECT_NEAR(scene.fluid_volume_m3, 0.4 * 0.4 * 0.1, 1e-9);
+  const Scene fine = build_scene(gate_in_wall(0.005));
+  EXPECT_NEAR(fine.fitted.obstacles[0].box.lower.x, 0.575, 1e-9) << "five particles: as it is";
+}
+
+TEST(Scene, AGateThatSlidesInItsFrameHasDrySidesAndAWetBottom) {
+  const double l0 = 0.02;
+  const Scene scene = build_scene(gate_in_wall(l0));
+  for (const WallParticle& w : scene.walls) {
+    if (w.body != 2) continue;
+    const bool in_the_middle = std::abs(w.position.x - 0.57) < 1e-9;
+    const bool at_the_bottom = w.position.z < l0;
+    EXPECT_EQ(w.layer, in_the_middle && !at_the_bottom ? 1 : 0) << w.position.y << ", " << w.position.z;
+  }
+  const RigidMotion& motion = scene.fitted.obstacles[1].motion;
+  EXPECT_NEAR(motion.stop_s, fluid_ceiling_m(scene.fitted.tank) + 8 * l0, 1e-9) << "out of the fluid's reach";
+}
+
+TEST(Scene, CountsThinAndMovingObstaclesAsItBuildsThem) {
+  for (const double l0 : {0.02, 0.01, 0.005})
+    for (const int layers : {1, 3}) {
+      SceneDescription d = gate_in_wall(l0);
+      d.wall_layers = layers;
+      const Scene scene = build_scene(d);
+      const ParticleCounts n = count_particles(d);
+      EXPECT_EQ(n.fluid, static_cast<std::int64_t>(scene.fluid.size())) << l0;
+      EXPECT_EQ(n.solid, static_cast<std::int64_t>(scene.walls.size())) << l0 << ", layers " << layers;
+    }
+}
+
+TEST(Scene, KnowsTheStillLevelOverAPoint) {
+  const Scene scene = build_scene(gate_in_wall(0.01));
+  EXPECT_EQ(scene.still_level_m({0.8, 0.2, 0}, 0), 0.1);
+  EXPECT_EQ(scene.still_level_m({0.3, 0.2, 0}, 0), 0.02);
+  EXPECT_EQ(scene.still_level_m({0.59, 0.2, 0}, 0), 0) << "in the gate";
+  EXPECT_EQ(scene.still_level_m({0.59, 0.2, 0}, 0.03), 0.1) << "the higher of two";
 }
 
 TEST(Scene, RejectsParticleDistancesThatAreNoLength) {

@@ -121,6 +121,58 @@ TEST(Case, WrongTypesNameTheirLine) {
   EXPECT_THAT(error_of("alpha = 0.01", "alpha = true"), HasSubstr("parameters.alpha: is a truth value"));
 }
 
+// The small case with a gate, a named block, and sensors of force and velocity; `change` replaces one piece of it.
+std::string case_with_forces(const std::string& from = "", const std::string& to = "") {
+  std::string text = with(small_case, "  { lower_m = [0.8, 0.3, 0.0], upper_m = [1.0, 0.7, 0.2] },\n",
+                          "  { name = \"block\", lower_m = [0.8, 0.3, 0.0], upper_m = [1.0, 0.7, 0.2] },\n"
+                          "  { name = \"gate\", lower_m = [1.98, 0.0, 0.0], upper_m = [2.0, 1.0, 1.0], thin = true, "
+                          "velocity_m_s = [0, 0, 1.5], start_s = 0.1 },\n");
+  text = with(text, "  { name = \"H1\"",
+              "  { name = \"F_block\", kind = \"force\", body = \"block\", face = \"x+\", direction = [-1, 0, 0] },\n"
+              "  { name = \"U\", kind = \"velocity\", position_m = [1.5, 0.5, 0.1], direction = [1, 0, 0] },\n"
+              "  { name = \"H1\"");
+  text = with(text, "wave_height_model = \"column\"", "wave_height_model = \"column\", force_model = \"acceleration\"");
+  return from.empty() ? text : with(text, from, to);
+}
+
+std::string force_error_of(const std::string& from, const std::string& to) {
+  try {
+    parse_case(case_with_forces(from, to), "small.toml");
+  } catch (const CaseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Case, ReadsForcesVelocitiesAndBodiesThatMove) {
+  const Case c = parse_case(case_with_forces(), "small.toml");
+  ASSERT_EQ(c.obstacles.size(), 2u);
+  EXPECT_TRUE(c.obstacles[1].thin);
+  EXPECT_TRUE(c.obstacles[1].motion.moves());
+  EXPECT_FALSE(c.obstacles[0].motion.moves());
+  EXPECT_DOUBLE_EQ(c.obstacles[1].motion.displacement_m(0.3).z, 0.3);
+  const CaseSensor& force = *c.find_sensor("F_block");
+  EXPECT_EQ(force.body, "block");
+  EXPECT_EQ(force.face.axis, 0);
+  EXPECT_TRUE(force.face.upwards);
+  EXPECT_EQ(probe_column(force, "pressure"), "F_block_pressure_N");
+  EXPECT_EQ(probe_column(*c.find_sensor("U")), "U_m_s");
+  EXPECT_EQ(primary_model(c, force, "wcsph", "extrapolated"), "acceleration");
+}
+
+TEST(Case, ForcesAndMotionsThatMakeNoSenseAreRefused) {
+  EXPECT_THAT(force_error_of("body = \"block\"", "body = \"blok\""),
+              AllOf(HasSubstr("sensors[1].body: unknown value `blok`"), HasSubstr("`block`")));
+  EXPECT_THAT(force_error_of("face = \"x+\"", "face = \"x\""), HasSubstr("face: unknown value `x`"));
+  EXPECT_THAT(force_error_of("direction = [-1, 0, 0]", "direction = [-2, 0, 0]"), HasSubstr("must be a unit vector"));
+  EXPECT_THAT(force_error_of(", force_model = \"acceleration\"", ""), HasSubstr("force_model: is missing"));
+  EXPECT_THAT(force_error_of("[0, 0, 1.5]", "[1, 0, 0]"), HasSubstr("give stop_s"));
+  EXPECT_THAT(force_error_of("start_s = 0.1", "start_s = 0.1, stop_s = 0.1"), HasSubstr("stop_s: must come after"));
+  EXPECT_THAT(force_error_of("name = \"gate\"", "name = \"block\""), HasSubstr("`block` occurs twice"));
+  EXPECT_THAT(force_error_of("name = \"U\"", "name = \"F\""), HasSubstr("cannot be told from sensor F_block"));
+  EXPECT_THAT(force_error_of("[1.98, 0.0, 0.0]", "[0.9, 0.0, 0.0]"), HasSubstr("overlaps another obstacle"));
+}
+
 TEST(Case, SyntaxErrorsNameTheirLine) {
   EXPECT_THAT(error_of("reference = \"none\"", "reference = \"none"), StartsWith("small.toml:3: syntax: "));
 }

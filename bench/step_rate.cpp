@@ -57,7 +57,7 @@ double run_to(Solver& solver, const SensorArray& sensors, double to_s, double ra
 }
 
 void measure(const Case& c, const RunSettings& settings, const Stretch& stretch) {
-  Scene scene = build_scene(scene_description(c, settings.l0_m, settings.wall_layers));
+  Scene scene = build_scene(scene_description(c, settings));
   disorder(scene, stretch.jitter);
   const auto solver = make_solver(c, scene, settings);
   const SensorArray sensors(c, scene, solver->smoothing_length_m(), settings.solver, settings.walls);

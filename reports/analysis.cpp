@@ -129,6 +129,7 @@ std::string changed_parameters(const RunRecord& run, const Case& c) {
   if (const WallOption* walls = find_walls(*solver, run.walls); walls != nullptr)
     for (const auto& [name, value] : walls->parameters) defaults[name] = value;
   defaults.erase("alpha");
+  for (const Placement& placement : c.placements) defaults[placement.name] = placement.drawn_m;
   std::string changed;
   for (const auto& [name, value] : defaults)
     if (const auto used = run.number("parameters." + name); used && *used != value)

@@ -24,6 +24,13 @@ inline bool holds_inside(const Box& b, const Vec3d& p) {
   return p.x > b.lower.x && p.x < b.upper.x && p.y > b.lower.y && p.y < b.upper.y && p.z > b.lower.z && p.z < b.upper.z;
 }
 
+/// Whether two boxes have more than a face in common, up to a micrometre.
+inline bool share_volume(const Box& a, const Box& b) {
+  constexpr double e = 1e-6;
+  return a.lower.x < b.upper.x - e && b.lower.x < a.upper.x - e && a.lower.y < b.upper.y - e &&
+         b.lower.y < a.upper.y - e && a.lower.z < b.upper.z - e && b.lower.z < a.upper.z - e;
+}
+
 inline double longest_edge(const Box& b) {
   return std::max({b.upper.x - b.lower.x, b.upper.y - b.lower.y, b.upper.z - b.lower.z});
 }

@@ -81,6 +81,9 @@ const std::vector<AcceptanceMetric>& acceptance_metrics() {
   return metrics;
 }
 
+const Placement* Case::find_placement(std::string_view placement_name) const {
+  return find_named(placements, placement_name);
+}
 const CaseSensor* Case::find_sensor(std::string_view sensor_name) const {
   return find_named(sensors, sensor_name);
 }

@@ -76,6 +76,15 @@ struct SolverOption {
   std::map<std::string, double> parameters;  ///< numeric solver parameters by name; the solver knows which it takes
 };
 
+/// A length of the geometry that a run may choose, such as an obstacle's distance that the sources leave open:
+/// obstacles are displaced along a unit vector by as much as the chosen value exceeds the one at which they are drawn.
+struct Placement {
+  std::string name;  ///< such as "block_distance_m"
+  double drawn_m = 0;
+  std::vector<std::string> moves;  ///< names of obstacles
+  Vec3d along;
+};
+
 /// A named resolution at which the case is validated.
 struct Tier {
   std::string name;
@@ -162,6 +171,7 @@ struct Case {
   Box tank;  ///< inner faces [m]
   std::vector<Box> fluid;
   std::vector<Obstacle> obstacles;
+  std::vector<Placement> placements;
   Vec3d gravity_m_s2;
   double water_height_m = 0;  ///< H_W: scale of c0 = 20 sqrt(g H_W) and of the dimensionless pressure
   double density_kg_m3 = 0;
@@ -180,6 +190,7 @@ struct Case {
   Published published;
 
   /// nullptr when there is none of that name.
+  const Placement* find_placement(std::string_view placement_name) const;
   const CaseSensor* find_sensor(std::string_view sensor_name) const;
   const SolverOption* find_solver(std::string_view solver_name) const;
   const Tier* find_tier(std::string_view tier_name) const;

@@ -33,12 +33,6 @@ bool strictly_inside(const Box& box, const Vec3d& p) {
          p.y < box.upper.y - e && p.z < box.upper.z - e;
 }
 
-bool overlap(const Box& a, const Box& b) {
-  constexpr double e = position_tolerance_m;
-  return a.lower.x < b.upper.x - e && b.lower.x < a.upper.x - e && a.lower.y < b.upper.y - e &&
-         b.lower.y < a.upper.y - e && a.lower.z < b.upper.z - e && b.lower.z < a.upper.z - e;
-}
-
 template <class T>
 void refuse_repeated_name(const TomlReader& reader, const std::vector<T>& items, const std::string& name) {
   for (const T& item : items)
@@ -86,10 +80,32 @@ Obstacle parse_obstacle(TomlReader& reader, const Case& c) {
   obstacle.motion = parse_motion(reader);
   reader.finish();
   for (const Box& fluid : c.fluid)
-    if (overlap(obstacle.box, fluid)) reader.fail("", "overlaps the fluid (leave its space out of the fluid)");
+    if (share_volume(obstacle.box, fluid)) reader.fail("", "overlaps the fluid (leave its space out of the fluid)");
   for (const Obstacle& other : c.obstacles)
-    if (overlap(obstacle.box, other.box)) reader.fail("", "overlaps another obstacle (let them touch at most)");
+    if (share_volume(obstacle.box, other.box)) reader.fail("", "overlaps another obstacle (let them touch at most)");
   return obstacle;
+}
+
+Vec3d parse_unit_vector(TomlReader& reader, std::string_view key) {
+  const Vec3d v = reader.vec3(key);
+  const double length = std::sqrt(dot(v, v));
+  if (std::abs(length - 1) > 1e-9)
+    reader.fail(key, fmt::format("has length {}, must be a unit vector such as [1, 0, 0]", length));
+  return v;
+}
+
+Placement parse_placement(TomlReader& reader, const Case& c) {
+  Placement placement;
+  placement.name = reader.text("name");
+  refuse_repeated_name(reader, c.placements, placement.name);
+  placement.drawn_m = reader.number("drawn_m");
+  placement.along = parse_unit_vector(reader, "along");
+  placement.moves = reader.texts("moves");
+  for (const std::string& moved : placement.moves)
+    if (std::none_of(c.obstacles.begin(), c.obstacles.end(), [&](const Obstacle& o) { return o.name == moved; }))
+      reader.fail("moves", fmt::format("there is no obstacle `{}` in geometry.obstacles", moved));
+  reader.finish();
+  return placement;
 }
 
 void parse_geometry(TomlReader reader, Case& c) {
@@ -100,10 +116,11 @@ void parse_geometry(TomlReader reader, Case& c) {
     c.fluid.push_back(parse_box_in_tank(fluid, c.tank));
     fluid.finish();
     for (std::size_t other = 0; other + 1 < c.fluid.size(); ++other)
-      if (overlap(c.fluid.back(), c.fluid[other]))
+      if (share_volume(c.fluid.back(), c.fluid[other]))
         fluid.fail("", fmt::format("overlaps geometry.fluid[{}] (let them touch at most)", other));
   }
   for (TomlReader& obstacle : reader.tables("obstacles", true)) c.obstacles.push_back(parse_obstacle(obstacle, c));
+  for (TomlReader& placement : reader.tables("placements", true)) c.placements.push_back(parse_placement(placement, c));
   reader.finish();
 }
 
@@ -127,14 +144,6 @@ void check_sensor_place(const TomlReader& reader, const CaseSensor& sensor, cons
   for (std::size_t k = 0; k < c.obstacles.size(); ++k)
     if (strictly_inside(c.obstacles[k].box, sensor.position_m))
       reader.fail("position_m", fmt::format("lies inside geometry.obstacles[{}] (move it to a face)", k));
-}
-
-Vec3d parse_unit_vector(TomlReader& reader, std::string_view key) {
-  const Vec3d v = reader.vec3(key);
-  const double length = std::sqrt(dot(v, v));
-  if (std::abs(length - 1) > 1e-9)
-    reader.fail(key, fmt::format("has length {}, must be a unit vector such as [1, 0, 0]", length));
-  return v;
 }
 
 // A column's name is `<sensor>[_<model>]_<unit>`: a name that begins like another sensor's could be taken for it.

@@ -70,7 +70,7 @@ double fitting_l0_m(const Case& c, const RunSettings& settings, std::int64_t ava
 
 Plan plan_run(const Case& c, const RunSettings& settings) {
   Plan plan;
-  plan.particles = count_particles(scene_description(c, settings.l0_m, settings.wall_layers));
+  plan.particles = count_particles(scene_description(c, settings));
   const SolverCost cost = solver_cost(settings);
   plan.memory_bytes = memory_for(plan.particles, cost.bytes_per_particle);
   plan.dt_s = cost.dt_s;

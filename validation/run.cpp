@@ -28,7 +28,7 @@ std::unique_ptr<Solver> solver_for(const Case& c, const Scene& scene, const RunS
 std::unique_ptr<RunLoop> begin(const Case& c, const RunSettings& settings, const RunOptions& options, RunLog& log,
                                const std::optional<RunPoint>& point) {
   const RunStart start = RunStart::now();
-  const Scene scene = build_scene(scene_description(c, settings.l0_m, settings.wall_layers));
+  const Scene scene = build_scene(scene_description(c, settings));
   auto solver = solver_for(c, scene, settings, options.factory);
   if (point) restore_checkpoint(options.out / checkpoint_file, *solver);
   return std::make_unique<RunLoop>(RunParts{c, settings, options, scene, std::move(solver), log}, start, point);

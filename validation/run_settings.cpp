@@ -48,13 +48,14 @@ double choose_l0(const Case& c, const RunRequest& request) {
   return l0_m;
 }
 
-void apply_override(RunSettings& settings, const std::string& key, double value) {
+void apply_override(const Case& c, RunSettings& settings, const std::string& key, double value) {
   if (key == "t_end_s" || key == "output_rate_Hz") {
     if (value <= 0) throw std::invalid_argument(fmt::format("{}: is {}, must be greater than zero", key, value));
     (key == "t_end_s" ? settings.t_end_s : settings.output_rate_Hz) = value;
     return;
   }
   std::vector<std::string> known = solver_parameter_names(settings.solver);
+  for (const Placement& placement : c.placements) known.push_back(placement.name);
   if (std::find(known.begin(), known.end(), key) != known.end()) {
     settings.parameters[key] = value;
     return;
@@ -81,7 +82,35 @@ std::vector<double> choose_snapshots(const Case& c, const RunRequest& request, d
   return times;
 }
 
+void refuse_collision(const SceneDescription& d, const std::string& name, double value) {
+  const auto fail = [&](std::string_view why) {
+    throw std::invalid_argument(fmt::format("{}: {} m puts an obstacle {}; choose another value", name, value, why));
+  };
+  for (std::size_t k = 0; k < d.obstacles.size(); ++k) {
+    const Box& box = d.obstacles[k].box;
+    if (!holds_point(d.tank, box.lower) || !holds_point(d.tank, box.upper)) fail("outside of the tank");
+    for (const Box& fluid : d.fluid)
+      if (share_volume(box, fluid)) fail("into the fluid");
+    for (std::size_t other = 0; other < k; ++other)
+      if (share_volume(box, d.obstacles[other].box)) fail("into another one");
+  }
+}
+
 }  // namespace
+
+SceneDescription scene_description(const Case& c, const RunSettings& settings) {
+  SceneDescription d = scene_description(c, settings.l0_m, settings.wall_layers);
+  for (const Placement& placement : c.placements) {
+    const auto chosen = settings.parameters.find(placement.name);
+    if (chosen == settings.parameters.end() || chosen->second == placement.drawn_m) continue;
+    const Vec3d by = (chosen->second - placement.drawn_m) * placement.along;
+    for (Obstacle& o : d.obstacles)
+      if (std::find(placement.moves.begin(), placement.moves.end(), o.name) != placement.moves.end())
+        o.box = shifted(o.box, by);
+    refuse_collision(d, placement.name, chosen->second);
+  }
+  return d;
+}
 
 RunSettings resolve_settings(const Case& c, const RunRequest& request) {
   const SolverOption& solver = choose_solver(c, request.solver);
@@ -97,8 +126,10 @@ RunSettings resolve_settings(const Case& c, const RunRequest& request) {
   settings.threads = request.threads > 0 ? request.threads : omp_get_num_procs();
   settings.parameters = solver.parameters;
   for (const auto& [key, value] : walls.parameters) settings.parameters[key] = value;
-  for (const auto& [key, value] : request.overrides) apply_override(settings, key, value);
+  for (const Placement& placement : c.placements) settings.parameters[placement.name] = placement.drawn_m;
+  for (const auto& [key, value] : request.overrides) apply_override(c, settings, key, value);
   settings.parameters = complete_parameters(c, settings.solver, settings.parameters);
+  scene_description(c, settings);  // refuses a placement that cannot be
   settings.snapshot_times_s = choose_snapshots(c, request, settings.t_end_s);
   return settings;
 }

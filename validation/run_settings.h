@@ -33,8 +33,12 @@ struct RunSettings {
   double output_rate_Hz = 1000;
   int threads = 1;
   std::vector<double> snapshot_times_s;      ///< sorted, none after t_end_s
-  std::map<std::string, double> parameters;  ///< every numeric parameter of the solver
+  std::map<std::string, double> parameters;  ///< every numeric parameter of the solver, every placement of the case
 };
+
+/// The case's geometry for a run, with its obstacles where the run places them. Throws std::invalid_argument naming the
+/// placement where that is not inside the tank, or where something else is.
+SceneDescription scene_description(const Case& c, const RunSettings& settings);
 
 /// Throws std::invalid_argument naming the key, what is wrong and the remedy.
 RunSettings resolve_settings(const Case& c, const RunRequest& request);

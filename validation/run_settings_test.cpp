@@ -220,5 +220,34 @@ TEST(Suggest, FindsTheNearestName) {
   EXPECT_EQ(suggestion("alpa", names), " (did you mean `alpha`?)");
 }
 
+// Where the sources leave an obstacle's place open, a run chooses it.
+TEST(Placement, MovesItsObstaclesAndIsKeptWithTheParameters) {
+  const Case c = load_case("aureli");
+  RunRequest request;
+  request.overrides = {{"block_distance_m", 0.45}};
+  const RunSettings chosen = resolve_settings(c, request);
+  EXPECT_EQ(chosen.parameters.at("block_distance_m"), 0.45);
+  EXPECT_EQ(resolve_settings(c, {}).parameters.at("block_distance_m"), 0.51);
+  EXPECT_NEAR(scene_description(c, chosen).obstacles.at(3).box.upper.x, 1.775 - 0.45, 1e-12);
+  EXPECT_NEAR(scene_description(c, chosen).obstacles.at(2).box.upper.x, 1.80, 1e-12) << "the gate stays";
+}
+
+TEST(Placement, OutsideOfTheTankOrIntoAnotherBodyIsRefused) {
+  const Case c = load_case("aureli");
+  const auto refused = [&](double distance_m) {
+    RunRequest request;
+    request.overrides = {{"block_distance_m", distance_m}};
+    try {
+      resolve_settings(c, request);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refused(1.7), AllOf(HasSubstr("block_distance_m"), HasSubstr("outside of the tank")));
+  EXPECT_THAT(refused(-0.1), HasSubstr("into another one"));
+  EXPECT_THAT(refused(-0.4), HasSubstr("into the fluid"));
+}
+
 }  // namespace
 }  // namespace sluice

@@ -185,7 +185,9 @@ std::map<std::string, double> complete_parameters(const Case& c, std::string_vie
                                                   const std::map<std::string, double>& given) {
   const SolverEntry& entry = require_entry(solver);
   for (const auto& [key, value] : given) {
-    if (std::find(entry.parameters.begin(), entry.parameters.end(), key) == entry.parameters.end())
+    const bool known = c.find_placement(key) != nullptr ||
+                       std::find(entry.parameters.begin(), entry.parameters.end(), key) != entry.parameters.end();
+    if (!known)
       throw std::invalid_argument(
           fmt::format("{}: unknown parameter of solver {}{}", key, solver, suggestion(key, entry.parameters)));
     if (!std::isfinite(value)) throw std::invalid_argument(fmt::format("{}: is not a finite number", key));

@@ -8,7 +8,7 @@
 
 #include "validation/acceptance.h"
 #include "validation/case.h"
-#include "validation/measured.h"
+#include "validation/measurements.h"
 #include "validation/metrics.h"
 #include "validation/run_directory.h"
 
@@ -49,8 +49,7 @@ struct AnalysedRun {
 
 struct ReportData {
   Case the_case;
-  std::optional<MeasuredData> measured;
-  std::string measured_problem;  ///< why there is none
+  Measurements measured;
   Window window;
   std::vector<AnalysedRun> runs;  ///< own before others, then by solver, walls, l0 (coarse first), alpha (large first)
 

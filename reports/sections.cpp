@@ -28,9 +28,8 @@ ReportSection summary_section(const ReportData& data) {
       "primary readings: the sensor models that the case file names for its solver and its walls. “Missing” means that "
       "a run did not record a value, or did not get far enough to have one."));
   section.blocks.push_back(runs_table(data));
-  if (!data.measured_problem.empty())
-    section.blocks.push_back(
-        Paragraph{"**No measured series**: " + data.measured_problem + ". Deviations are missing throughout."});
+  for (const std::string& problem : data.measured.problems())
+    section.blocks.push_back(Paragraph{"**No measurement**: " + problem + ". What needs it is missing throughout."});
   return section;
 }
 

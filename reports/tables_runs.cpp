@@ -261,11 +261,12 @@ Table provenance_table(const ReportData& data) {
                time_cell(r.number("cpu_time_s")), text_cell(r.text("case_hash")), text_cell(r.text("data_hash")),
                whole(r.number("lost.over_top")), through});
   }
+  std::string measured;
+  for (const MeasuredFile& file : data.measured.files())
+    if (file.present()) measured += fmt::format(", {} ({})", file.path.generic_string(), file.hash);
   table.notes.push_back(fmt::format(
-      "This report read case file {} ({}) and {}. A run whose hashes differ was made with other versions of them.",
-      data.the_case.name, data.the_case.hash,
-      data.measured ? data.the_case.measured.generic_string() + " (" + data.measured->hash() + ")"
-                    : "no measured data"));
+      "This report read case file {} ({}){}. A run whose hashes differ was made with other versions of them.",
+      data.the_case.name, data.the_case.hash, measured.empty() ? " and no measured data" : measured));
   return table;
 }
 

@@ -73,7 +73,8 @@ void read_sensor(AnalysedRun& run, const Case& c, const CaseSensor& sensor, cons
     run.readings.push_back(
         make_reading(c, sensor, model, run.record.probes.column(probe_column(sensor, model)), measured));
     // A dynamic wall's density can rise but never fall below the reference: its own pressure means nothing.
-    run.readings.back().warning_only = run.record.walls == "dynamic" && model == "wall";
+    run.readings.back().warning_only =
+        run.record.walls == "dynamic" && (model == "wall" || (sensor.kind == SensorKind::force && model == "pressure"));
     run.readings.back().primary = named ? model == primary : model.empty() || models.size() == 1;
   }
 }
@@ -194,6 +195,18 @@ const MeasuredSeries* ReportData::measured_series(const std::string& sensor) con
   return measured.find(sensor);
 }
 
+Window ReportData::window_of(const std::string& sensor) const {
+  const CaseSensor* found = the_case.find_sensor(sensor);
+  return found == nullptr ? window : comparison_window(the_case, *found);
+}
+
+std::string ReportData::measured_remark(const std::string& sensor) const {
+  const CaseSensor* found = the_case.find_sensor(sensor);
+  if (found == nullptr || measured_series(sensor) == nullptr) return "Measured: missing.";
+  if (found->measured_shift_s == 0) return "";
+  return fmt::format("{} s were added to the measured times, as the case declares.", shortest(found->measured_shift_s));
+}
+
 std::vector<std::string> ReportData::sensors(SensorKind kind) const {
   std::vector<std::string> names;
   for (const CaseSensor& sensor : the_case.sensors)
@@ -205,7 +218,8 @@ std::vector<std::string> ReportData::headline_sensors() const {
   std::vector<std::string> names;
   for (const PublishedImpulse& row : the_case.published.impulses)
     if (std::find(names.begin(), names.end(), row.sensor) == names.end()) names.push_back(row.sensor);
-  return names.empty() ? sensors(SensorKind::pressure) : names;
+  if (names.empty()) names = sensors(SensorKind::pressure);
+  return names.empty() ? sensors(SensorKind::force) : names;
 }
 
 ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {

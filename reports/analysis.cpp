@@ -56,9 +56,8 @@ SensorReading make_reading(const Case& c, const CaseSensor& sensor, const std::s
     reading.comparison.remarks.push_back("no samples");
     return reading;
   }
-  reading.comparison =
-      measured != nullptr ? compare(reading.series, *measured, window, comparison_options(sensor))
-                          : describe(reading.series, window);
+  reading.comparison = measured != nullptr ? compare(reading.series, *measured, window, comparison_options(sensor))
+                                           : describe(reading.series, window);
   return reading;
 }
 

@@ -30,20 +30,19 @@ std::vector<Picture> route_figures(const FigureMaker& maker) {
       add_experiment(panel, data, sensor, data.window);
       int style = 0;
       for (const SensorReading* reading : run.of(sensor.name)) {
-        panel.curves.push_back(
-            run_curve(run, running_mean(reading->series, smoothing_s), data.window, style++, 1));
+        panel.curves.push_back(run_curve(run, running_mean(reading->series, smoothing_s), data.window, style++, 1));
         panel.curves.back().label = reading->remarked_model();
       }
       panels.push_back(std::move(panel));
     }
     if (panels.empty()) continue;
-    const std::string caption =
-        fmt::format("{} by both routes, after a 10 ms running mean: `acceleration` sums mass times acceleration of the "
-                    "wall's particles, `pressure` their pressures times area.",
-                    sensor.name);
+    const std::string caption = fmt::format(
+        "{} by both routes, after a 10 ms running mean: `acceleration` sums mass times acceleration of the "
+        "wall's particles, `pressure` their pressures times area.",
+        sensor.name);
     pictures.push_back(draw_series(maker, "force_routes_" + sensor.name, std::move(panels),
-                                    with_remark(data, sensor, caption),
-                                    fmt::format("{} over time by both routes, run by run", axis_name(sensor))));
+                                   with_remark(data, sensor, caption),
+                                   fmt::format("{} over time by both routes, run by run", axis_name(sensor))));
   }
   return pictures;
 }
@@ -90,9 +89,10 @@ std::vector<Picture> force_alpha_figures(const FigureMaker& maker) {
     PlotFigure figure;
     figure.name = "force_alpha_" + sensor;
     figure.source = "primary readings";
-    figure.panels = {alpha_panel(maker.data, sensor, "peak after 10 ms mean [N]",
-                                 [](const Comparison& c) { return c.smoothed_peak.simulated; }),
-                     alpha_panel(maker.data, sensor, "noise [N]", [](const Comparison& c) { return c.noise.simulated; })};
+    figure.panels = {
+        alpha_panel(maker.data, sensor, "peak after 10 ms mean [N]",
+                    [](const Comparison& c) { return c.smoothed_peak.simulated; }),
+        alpha_panel(maker.data, sensor, "noise [N]", [](const Comparison& c) { return c.noise.simulated; })};
     pictures.push_back(draw_picture(
         maker, figure,
         fmt::format("{}: its peak after a 10 ms running mean, and its noise (root mean square of what a 20 ms running "

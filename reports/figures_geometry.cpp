@@ -8,7 +8,6 @@
 
 #include "reports/figures.h"
 #include "reports/gnuplot.h"
-#include "reports/quantity.h"
 #include "reports/text.h"
 
 namespace sluice {
@@ -19,8 +18,8 @@ constexpr double side_px = 110;   // left and right of the tank: for the chains 
 constexpr double gap_px = 120;    // between plan and elevation
 constexpr double under_px = 110;  // below the elevation
 constexpr double over_px = 40;
-constexpr double chain_px = 26;     // from the tank to its chain of lengths
-constexpr double narrow_px = 44;    // shorter lengths are labelled at right angles
+constexpr double chain_px = 26;   // from the tank to its chain of lengths
+constexpr double narrow_px = 44;  // shorter lengths are labelled at right angles
 constexpr const char* ink = "#40505A";
 
 /// From metres of a view to pixels of the picture.
@@ -45,10 +44,12 @@ class Drawing {
         fill.empty() ? "empty" : "transparent solid 0.75", edge);
   }
   void line(double x0, double y0, double x1, double y1, const std::string& look) {
-    text_ += fmt::format("set arrow from {:.1f},{:.1f} to {:.1f},{:.1f} {} lc rgb '{}' front\n", x0, y0, x1, y1, look, ink);
+    text_ +=
+        fmt::format("set arrow from {:.1f},{:.1f} to {:.1f},{:.1f} {} lc rgb '{}' front\n", x0, y0, x1, y1, look, ink);
   }
   void label(double x, double y, const std::string& words, const std::string& look) {
-    text_ += fmt::format("set label \"{}\" at {:.1f},{:.1f} {} tc rgb '{}' front\n", escape_gnuplot(words), x, y, look, ink);
+    text_ +=
+        fmt::format("set label \"{}\" at {:.1f},{:.1f} {} tc rgb '{}' front\n", escape_gnuplot(words), x, y, look, ink);
   }
   void point(double x, double y) {
     text_ += fmt::format("set label \"\" at {:.1f},{:.1f} point pt 7 ps 0.7 lc rgb '#D55E00' front\n", x, y);
@@ -110,29 +111,42 @@ std::string obstacle_words(const Obstacle& obstacle) {
   return fmt::format("{}, moves at {:g} m/s", obstacle.name.empty() ? "body" : obstacle.name, speed);
 }
 
-/// Sensors that fall on each other share a label: the first and the last of them.
-void draw_sensors(Drawing& drawing, const View& view, const Case& c) {
-  struct Mark {
-    double x = 0, y = 0;
-    std::vector<std::string> names;
-  };
-  std::vector<Mark> marks;
+/// Sensors of a kind that stand close together share a label, the first and the last of them, at their upper right.
+struct SensorMark {
+  SensorKind kind = SensorKind::pressure;
+  double first_x = 0, first_y = 0, right = 0, top = 0;
+  std::vector<std::string> names;
+};
+
+std::vector<SensorMark> sensor_marks(const View& view, const Case& c) {
+  constexpr double close_px = 60;
+  std::vector<SensorMark> marks;
   for (const CaseSensor& sensor : c.sensors) {
     if (sensor.kind == SensorKind::force) continue;
     const double x = view.x(sensor.position_m);
     const double y = view.y(sensor.position_m);
-    drawing.point(x, y);
-    const auto near = [&](const Mark& m) { return std::hypot(m.x - x, m.y - y) < 60; };
-    const auto found = std::find_if(marks.begin(), marks.end(), near);
-    if (found == marks.end())
-      marks.push_back({x, y, {sensor.name}});
-    else
-      found->names.push_back(sensor.name);
+    const auto found = std::find_if(marks.begin(), marks.end(), [&](const SensorMark& m) {
+      return m.kind == sensor.kind && std::hypot(m.first_x - x, m.first_y - y) < close_px;
+    });
+    if (found == marks.end()) {
+      marks.push_back({sensor.kind, x, y, x, y, {sensor.name}});
+      continue;
+    }
+    found->right = std::max(found->right, x);
+    found->top = std::max(found->top, y);
+    found->names.push_back(sensor.name);
   }
-  for (const Mark& mark : marks) {
+  return marks;
+}
+
+void draw_sensors(Drawing& drawing, const View& view, const Case& c) {
+  for (const CaseSensor& sensor : c.sensors)
+    if (sensor.kind != SensorKind::force) drawing.point(view.x(sensor.position_m), view.y(sensor.position_m));
+  for (const SensorMark& mark : sensor_marks(view, c)) {
     const std::string words =
         mark.names.size() == 1 ? mark.names.front() : mark.names.front() + " … " + mark.names.back();
-    drawing.label(mark.x + 8, mark.y + 12, words, "left");
+    const double above_px = mark.kind == SensorKind::pressure ? 34 : 12;  // kinds do not write over each other
+    drawing.label(mark.right + 8, mark.top + above_px, words, "left");
   }
 }
 
@@ -152,7 +166,8 @@ void name_bodies(Drawing& drawing, const View& plan, const Case& c) {
   const Box* deepest = &c.fluid.front();
   for (const Box& fluid : c.fluid)
     if (fluid.upper.z - fluid.lower.z > deepest->upper.z - deepest->lower.z) deepest = &fluid;
-  drawing.label(plan.x(middle(*deepest)), plan.y(middle(*deepest)), "water", "center");
+  const Vec3d water = 0.5 * (middle(*deepest) + deepest->lower);  // off the middle, where sensors like to stand
+  drawing.label(plan.x(middle(*deepest)), plan.y(water), "water", "center");
   for (const Obstacle& obstacle : c.obstacles) {
     const double width = plan.px_per_m * (obstacle.box.upper.x - obstacle.box.lower.x);
     const std::string& words = obstacle.name;
@@ -220,7 +235,8 @@ std::string sizes_in_words(const Case& c) {
   std::string words = fmt::format("Length × width × height: tank {}", size(c.tank));
   for (std::size_t k = 0; k < c.fluid.size(); ++k)
     words += fmt::format(", water {}{}", c.fluid.size() > 1 ? fmt::format("{} ", k + 1) : "", size(c.fluid[k]));
-  for (const Obstacle& obstacle : c.obstacles) words += fmt::format(", {} {}", obstacle_words(obstacle), size(obstacle.box));
+  for (const Obstacle& obstacle : c.obstacles)
+    words += fmt::format(", {} {}", obstacle_words(obstacle), size(obstacle.box));
   return words + ".";
 }
 

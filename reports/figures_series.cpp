@@ -86,8 +86,8 @@ std::vector<Picture> series_figures(const FigureMaker& maker, SensorKind kind, b
     if (!cut.words.empty())
       caption += fmt::format(" The axis ends at {:.1f} {}; beyond it: {}.", cut.limit, cut.unit, cut.words);
     pictures.push_back(draw_series(maker, q.stem + "_" + sensor.name + (raw ? "_raw" : ""), std::move(panels),
-                                    with_remark(data, sensor, caption),
-                                    fmt::format("{} over time, experiment and runs", axis_name(sensor))));
+                                   with_remark(data, sensor, caption),
+                                   fmt::format("{} over time, experiment and runs", axis_name(sensor))));
   }
   return pictures;
 }
@@ -102,8 +102,8 @@ std::vector<Picture> spray_figures(const FigureMaker& maker) {
     if (panels.empty()) continue;
     pictures.push_back(
         draw_series(maker, "wave_" + sensor.name + "_top", std::move(panels),
-                     fmt::format("Highest water on the line of {}, spray included (model top).", sensor.name),
-                     fmt::format("Highest water at {} over time, experiment and runs", sensor.name)));
+                    fmt::format("Highest water on the line of {}, spray included (model top).", sensor.name),
+                    fmt::format("Highest water at {} over time, experiment and runs", sensor.name)));
   }
   return pictures;
 }

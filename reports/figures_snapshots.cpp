@@ -89,7 +89,8 @@ std::string moving_edges_script(const Case& the_case, double t_s, int first) {
   for (const Obstacle& obstacle : the_case.obstacles) {
     if (!obstacle.motion.moves()) continue;
     for (int k = 0; k < edges_of_a_box; ++k) out += fmt::format("unset arrow {}\n", first + k);
-    if (const auto box = obstacle_at(obstacle, t_s, the_case.tank)) out += edges_script(*box, moving_edge_colour, first);
+    if (const auto box = obstacle_at(obstacle, t_s, the_case.tank))
+      out += edges_script(*box, moving_edge_colour, first);
     first += edges_of_a_box;
   }
   return out;

@@ -148,8 +148,8 @@ std::string force_quantity(const ReportData& data, const std::string& sensor, co
     const std::string value = fmt::format("{} {} ({}", fixed(*pair.simulated, decimals), unit, run.key);
     return measured ? fmt::format("{}, {} %)", value, with_sign(100 * *pair.deviation(), 1)) : value + ")";
   };
-  std::string out = measured ? fmt::format("measured {} {}; ", fixed(*pair_of(*runs.front().run).measured, decimals), unit)
-                             : "";
+  std::string out =
+      measured ? fmt::format("measured {} {}; ", fixed(*pair_of(*runs.front().run).measured, decimals), unit) : "";
   out += words(*runs.front().run);
   return runs.size() > 1 ? out + " to " + words(*runs.back().run) : out;
 }
@@ -162,9 +162,9 @@ std::string half_peak_words(const ReportData& data, const std::string& sensor) {
   if (runs.empty()) return "";
   std::string out = fmt::format("; half of the measured peak is reached {} ms later ({})",
                                 with_sign(1000 * runs.front().value, 0), runs.front().run->key);
-  return runs.size() > 1 ? out + fmt::format(" to {} ms ({})", with_sign(1000 * runs.back().value, 0),
-                                             runs.back().run->key)
-                         : out;
+  return runs.size() > 1
+             ? out + fmt::format(" to {} ms ({})", with_sign(1000 * runs.back().value, 0), runs.back().run->key)
+             : out;
 }
 
 std::string force_finding(const ReportData& data, const std::string& sensor) {

@@ -192,11 +192,12 @@ TEST(ForceReport, LeavesOutWhatTheCaseHasNot) {
   for (const char* absent : {"## Pressure", "## Wave", "Table 2", "FreSCo", "## The paper's statements"})
     EXPECT_EQ(page.find(absent), std::string::npos) << absent;
   for (const char* present :
-       {"## Forces", "## Velocities", "## Geometry", "Assumptions of the case", "The gate opens at once", "## Acceptance",
-        "0.26 s were added to the measured times", "## Artificial viscosity"})
+       {"## Forces", "## Velocities", "## Geometry", "Assumptions of the case", "The gate opens at once",
+        "## Acceptance", "0.26 s were added to the measured times", "## Artificial viscosity"})
     EXPECT_NE(page.find(present), std::string::npos) << present;
-  for (const char* file : {"force_F_column.svg", "force_F_column_raw.svg", "force_impact_F_column.svg",
-                           "force_routes_F_column.svg", "force_alpha_F_column.svg", "velocity_U.svg", "initial_geometry.svg"})
+  for (const char* file :
+       {"force_F_column.svg", "force_F_column_raw.svg", "force_impact_F_column.svg", "force_routes_F_column.svg",
+        "force_alpha_F_column.svg", "velocity_U.svg", "initial_geometry.svg"})
     EXPECT_TRUE(fs::exists(out / "figures" / file)) << file;
   EXPECT_TRUE(fs::exists(out / "tables/parameters.csv")) << "no table of a paper";
 }

@@ -56,9 +56,10 @@ ReportSection pressures_section(const FigureMaker& maker) {
   Table all = sensor_metrics_table(maker.data, SensorKind::pressure, true);
   all.folded = true;
   section.blocks.push_back(std::move(all));
-  if (!maker.data.the_case.published.impulses.empty()) section.blocks.push_back(Paragraph{
-      "Curves of the mesh-based codes FreSCo and ConFlow, which the paper shows beside its own, exist as printed "
-      "figures only; no numbers were published, so none are drawn here."});
+  if (!maker.data.the_case.published.impulses.empty())
+    section.blocks.push_back(Paragraph{
+        "Curves of the mesh-based codes FreSCo and ConFlow, which the paper shows beside its own, exist as printed "
+        "figures only; no numbers were published, so none are drawn here."});
   return section;
 }
 
@@ -79,12 +80,12 @@ ReportSection waves_section(const FigureMaker& maker) {
 ReportSection force_section(const FigureMaker& maker) {
   const ReportData& data = maker.data;
   ReportSection section{"forces", "Forces", {}};
-  section.blocks.push_back(
-      hint("A force is read by two routes: `acceleration` sums mass times the acceleration that the fluid would give to "
-           "the wall's particles (the paper's reading of WCSPH), `pressure` the pressures of the first layer times its "
-           "area (the paper's of MPS). In still water both are exact; how far they part in a flow says how far to trust "
-           "either. Black: the measured mean; grey: the band of the measured points. Long views show a 10 ms running "
-           "mean of the runs, then the raw readings; close views show the first impact, raw."));
+  section.blocks.push_back(hint(
+      "A force is read by two routes: `acceleration` sums mass times the acceleration that the fluid would give to "
+      "the wall's particles (the paper's reading of WCSPH), `pressure` the pressures of the first layer times its "
+      "area (the paper's of MPS). In still water both are exact; how far they part in a flow says how far to trust "
+      "either. Black: the measured mean; grey: the band of the measured points. Long views show a 10 ms running "
+      "mean of the runs, then the raw readings; close views show the first impact, raw."));
   append(section, series_figures(maker, SensorKind::force));
   append(section, series_figures(maker, SensorKind::force, true));
   append(section, impact_figures(maker, SensorKind::force));
@@ -99,9 +100,9 @@ ReportSection force_section(const FigureMaker& maker) {
 
 ReportSection velocity_section(const FigureMaker& maker) {
   ReportSection section{"velocities", "Velocities", {}};
-  section.blocks.push_back(
-      hint("The fluid's kernel mean of one component of the velocity at a point. It reads zero where too little fluid is "
-           "near, before the water comes and where it runs too shallow."));
+  section.blocks.push_back(hint(
+      "The fluid's kernel mean of one component of the velocity at a point. It reads zero where too little fluid is "
+      "near, before the water comes and where it runs too shallow."));
   append(section, series_figures(maker, SensorKind::velocity));
   section.blocks.push_back(sensor_metrics_table(maker.data, SensorKind::velocity, true));
   return section;

@@ -77,10 +77,7 @@ void add_experiment(PlotPanel& panel, const ReportData& data, const CaseSensor& 
   const std::size_t merged = bins_drawn_as_one(*measured, window);
   const double width_s = static_cast<double>(merged) * measured->bin_s;
   PlotBand band{
-      fmt::format("experiment, {} in {:g} ms", sensor.measured_is_band ? "band" : "range", 1000 * width_s),
-      {},
-      {},
-      {}};
+      fmt::format("experiment, {} in {:g} ms", sensor.measured_is_band ? "band" : "range", 1000 * width_s), {}, {}, {}};
   PlotCurve mean{
       fmt::format("experiment, mean of {:g} ms", 1000 * width_s), {}, {}, CurveLook::experiment, 0, false, false, {}};
   for (std::size_t i = 0; i + merged <= measured->t_s.size(); i += merged) {
@@ -136,7 +133,7 @@ std::string with_remark(const ReportData& data, const CaseSensor& sensor, const 
 }
 
 Picture draw_series(const FigureMaker& maker, const std::string& name, std::vector<PlotPanel> panels,
-                     const std::string& caption, const std::string& description) {
+                    const std::string& caption, const std::string& description) {
   PlotFigure figure;
   figure.name = name;
   figure.panels = std::move(panels);

@@ -1,4 +1,5 @@
-// Panels of what a sensor saw over time, with the experiment behind the runs: what the figures of series have in common.
+// Panels of what a sensor saw over time, with the experiment behind the runs: what the figures of series have in
+// common.
 #pragma once
 
 #include <string>

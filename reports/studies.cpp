@@ -129,8 +129,8 @@ std::vector<ResolutionQuantity> resolution_quantities(const ReportData& data, co
   for (const std::string& sensor : data.sensors(SensorKind::force)) {
     out.push_back(value(sensor + " peak, 10 ms mean [N]", 2, series, sensor,
                         [](const Comparison& c) { return c.smoothed_peak.simulated; }));
-    out.push_back(value(sensor + " impulse [N s]", 3, series, sensor,
-                        [](const Comparison& c) { return c.impulse.simulated; }));
+    out.push_back(
+        value(sensor + " impulse [N s]", 3, series, sensor, [](const Comparison& c) { return c.impulse.simulated; }));
   }
   std::erase_if(out, [](const ResolutionQuantity& q) { return q.points.empty(); });
   return out;

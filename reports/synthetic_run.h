@@ -25,8 +25,8 @@ struct MadeRun {
 /// Writes run.json and probes.csv of a run of the case `kleefsman` made from its measured digest.
 void write_run(const std::filesystem::path& directory, const MadeRun& run);
 
-/// A run of a case with forces and velocity probes, made from what was measured; where nothing was, from a pulse of 10 N
-/// between 0.5 and 0.7 s.
+/// A run of a case with forces and velocity probes, made from what was measured; where nothing was, from a pulse of 10
+/// N between 0.5 and 0.7 s.
 struct MadeForceRun {
   std::string case_name = "column";
   std::string solver = "wcsph";

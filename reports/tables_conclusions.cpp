@@ -254,10 +254,11 @@ void add_best_alpha(Table& table, const ReportData& data, const std::string& sen
   const AlphaTrend trend = alpha_trend(data, sensor, "%", [](const Comparison& c) -> std::optional<double> {
     return c.rmse_over_range ? std::optional(100 * *c.rmse_over_range) : std::nullopt;
   });
-  Evidence ours{trend.words.empty() ? "" : "RMSE / range " + trend.words, true, data.measured_series(sensor) == nullptr};
+  Evidence ours{trend.words.empty() ? "" : "RMSE / range " + trend.words, true,
+                data.measured_series(sensor) == nullptr};
   for (const auto& points : trend.series) {
-    const auto best =
-        std::min_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto best = std::min_element(points.begin(), points.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
     ours.agrees = ours.agrees && std::abs(best->first / stated - 1) < 1e-9;
   }
   add(table, "α = 0.1 gives the best force", paper, ours);
@@ -304,9 +305,11 @@ Table conclusions_table(const ReportData& data) {
   add_steps(table, data, both);
   if (data.has(SensorKind::force))
     table.notes.push_back(
-        "Oscillations: noise, the root mean square of what a 20 ms running mean takes away. Forces are primary readings.");
+        "Oscillations: noise, the root mean square of what a 20 ms running mean takes away. Forces are primary "
+        "readings.");
   table.notes.push_back(
-      "Where both methods are compared, at the finest particle distance that has both, against what the paper prints at "
+      "Where both methods are compared, at the finest particle distance that has both, against what the paper prints "
+      "at "
       "its finest. Costs: processor time per simulated second; they agree within a tenth, steps within a quarter.");
   return table;
 }

@@ -85,8 +85,7 @@ Table force_peaks_table(const ReportData& data) {
                    {"later by [ms]", "half_peak_difference_ms"}};
   for (const std::string& sensor : data.sensors(SensorKind::force))
     add_sensor_rows(
-        table, data, sensor,
-        [&](const MeasuredSeries&) { return measured_peaks(table, any_comparison(data, sensor)); },
+        table, data, sensor, [&](const MeasuredSeries&) { return measured_peaks(table, any_comparison(data, sensor)); },
         [&](const AnalysedRun& run, const SensorReading& reading) -> std::vector<TableCell> {
           const Comparison& c = reading.comparison;
           return {word(run.label),
@@ -104,7 +103,8 @@ Table force_peaks_table(const ReportData& data) {
         });
   table.notes.push_back(
       "Arrival and half peak: first time at 10 % and at half of the measured peak, in both series; where nothing was "
-      "measured, of the run's own peak. Peaks are raw, and after a 10 ms running mean of both series: the first touch of "
+      "measured, of the run's own peak. Peaks are raw, and after a 10 ms running mean of both series: the first touch "
+      "of "
       "a weakly compressible front is a spike whose height is a matter of sampling.");
   return table;
 }
@@ -148,10 +148,9 @@ std::vector<TableCell> impulse_row(const AnalysedRun& run, const SensorReading& 
     cells.push_back(signed_number(scaled(relative_deviation(simulated, known), 100), 1));
   }
   const Comparison& c = reading.comparison;
-  cells.insert(cells.end(),
-               {number(c.rmse, decimals), number(scaled(c.rmse_over_range, 100), 1),
-                number(scaled(c.share_inside_band, 100), 0), signed_number(scaled(c.lag_s, 1000), 0),
-                number(c.correlation, 2), number(c.noise.simulated, decimals)});
+  cells.insert(cells.end(), {number(c.rmse, decimals), number(scaled(c.rmse_over_range, 100), 1),
+                             number(scaled(c.share_inside_band, 100), 0), signed_number(scaled(c.lag_s, 1000), 0),
+                             number(c.correlation, 2), number(c.noise.simulated, decimals)});
   return cells;
 }
 
@@ -178,12 +177,12 @@ Table force_impulses_table(const ReportData& data, const std::string& sensor) {
       [&](const AnalysedRun& run, const SensorReading& reading) {
         return impulse_row(run, reading, windows, data.measured_series(sensor));
       });
-  table.notes.push_back(of.measured_is_band
-                            ? "Inside band: share of the time between the lowest and the highest measured point of a "
-                              "bin; the points of several runs or lines are the band. Bins without points count neither "
-                              "way. Noise: root mean square of what a 20 ms running mean takes away."
-                            : "Inside band: missing where the measurement is no band. Noise: root mean square of what a "
-                              "20 ms running mean takes away.");
+  table.notes.push_back(
+      of.measured_is_band ? "Inside band: share of the time between the lowest and the highest measured point of a "
+                            "bin; the points of several runs or lines are the band. Bins without points count neither "
+                            "way. Noise: root mean square of what a 20 ms running mean takes away."
+                          : "Inside band: missing where the measurement is no band. Noise: root mean square of what a "
+                            "20 ms running mean takes away.");
   return table;
 }
 

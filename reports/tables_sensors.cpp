@@ -70,9 +70,8 @@ Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_mod
   table.name = quantity_of(kind).stem + "_metrics" + (all_models ? "_all_models" : "");
   const std::vector<std::string> sensors = data.sensors(kind);
   const Window window = sensors.empty() ? data.window : data.window_of(sensors.front());
-  table.caption =
-      fmt::format("{} over {} to {} s, {}", quantity_of(kind).title, shortest(window.begin_s), shortest(window.end_s),
-                  all_models ? "every sensor model" : "primary readings");
+  table.caption = fmt::format("{} over {} to {} s, {}", quantity_of(kind).title, shortest(window.begin_s),
+                              shortest(window.end_s), all_models ? "every sensor model" : "primary readings");
   table.columns = metric_columns(kind);
   for (const std::string& sensor : sensors) {
     table.add_group(sensor);

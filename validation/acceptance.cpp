@@ -53,8 +53,8 @@ class Comparisons {
     const Key key{column, window.begin_s, window.end_s};
     auto found = done_.find(key);
     if (found == done_.end())
-      found = done_.emplace(key, compare(run_.probes.column(column), *measured, window, comparison_options(*sensor)))
-                  .first;
+      found =
+          done_.emplace(key, compare(run_.probes.column(column), *measured, window, comparison_options(*sensor))).first;
     return &found->second;
   }
 

@@ -43,7 +43,8 @@ std::vector<AcceptanceCheck> check_acceptance(const Case& c, const RunRecord& ru
 /// True when at least one row applies and every applicable row passes.
 bool all_passed(const std::vector<AcceptanceCheck>& checks);
 
-/// "impulse_deviation P1 wall" or "impulse_deviation F 0.3 .. 1.3 s", and a value or bound for people ("+4.0 %", "+15 ms", "3").
+/// "impulse_deviation P1 wall" or "impulse_deviation F 0.3 .. 1.3 s", and a value or bound for people ("+4.0 %", "+15
+/// ms", "3").
 std::string acceptance_name(const AcceptanceRow& row);
 std::string acceptance_value_text(const AcceptanceRow& row, double value);
 std::string acceptance_band_text(const AcceptanceRow& row);

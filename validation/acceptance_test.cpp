@@ -149,7 +149,8 @@ TEST_F(AcceptanceTest, ASensorsOwnWindowAndShiftCount) {
   write_run(1.0, 0.1, 0.9);
   const std::string row = R"(metric = "rmse_over_range", sensor = "P1", upper = 0.02)";
   EXPECT_EQ(check(row, nlohmann::json::object(), ", window_s = [0.1, 0.9]").verdict, AcceptanceVerdict::fail);
-  EXPECT_EQ(check(row, nlohmann::json::object(), ", window_s = [0.1, 0.9], measured_shift_s = 0.1").verdict, AcceptanceVerdict::pass);
+  EXPECT_EQ(check(row, nlohmann::json::object(), ", window_s = [0.1, 0.9], measured_shift_s = 0.1").verdict,
+            AcceptanceVerdict::pass);
 }
 
 TEST_F(AcceptanceTest, TheShareInsideABandNeedsARealBand) {

@@ -47,13 +47,13 @@ struct CaseSensor {
   /// Unit vector. Pressure and wave height: into the fluid, away from the wall, or up the probe's line; force and
   /// velocity: the direction of the component that is read.
   Vec3d normal;
-  std::string measured;  ///< name of the measured series in the digest; empty where nothing was measured
-  std::string body{};    ///< force: name of an obstacle, or "tank"
-  BodyFace face{};       ///< force: one face of the body, or the whole body, net of its far side
-  std::filesystem::path measured_in{};   ///< its digest, relative to the source root; empty: the case's
-  double measured_shift_s = 0;           ///< added to the measured times: what the sources' clock lacks
-  bool measured_is_band = false;         ///< the bins' minimum to maximum is the measurement's own scatter
-  std::optional<TimeWindow> window{};    ///< of its metrics, where it is not the case's
+  std::string measured;                 ///< name of the measured series in the digest; empty where nothing was measured
+  std::string body{};                   ///< force: name of an obstacle, or "tank"
+  BodyFace face{};                      ///< force: one face of the body, or the whole body, net of its far side
+  std::filesystem::path measured_in{};  ///< its digest, relative to the source root; empty: the case's
+  double measured_shift_s = 0;          ///< added to the measured times: what the sources' clock lacks
+  bool measured_is_band = false;        ///< the bins' minimum to maximum is the measurement's own scatter
+  std::optional<TimeWindow> window{};   ///< of its metrics, where it is not the case's
   std::vector<TimeWindow> impulses_s{};  ///< spans over which reports give its impulse beside that over the window
 };
 

@@ -237,10 +237,11 @@ TEST(Case, BandsMayBeOneSided) {
 
 TEST(Case, ASensorSaysHowItsSeriesWasMeasuredAndWhereItIsCompared) {
   const std::string key = "measured = \"P1\"";
-  const Case c = parse_case(with(small_case, key,
-                                 key + R"(, measured_in = "other.csv", measured_shift_s = 0.26, measured_is_band = true)"
-                                       ", window_s = [0.2, 0.9], impulses_s = [[0.2, 0.5], [0.5, 0.9]]"),
-                            "small.toml");
+  const Case c =
+      parse_case(with(small_case, key,
+                      key + R"(, measured_in = "other.csv", measured_shift_s = 0.26, measured_is_band = true)"
+                            ", window_s = [0.2, 0.9], impulses_s = [[0.2, 0.5], [0.5, 0.9]]"),
+                 "small.toml");
   const CaseSensor& p1 = *c.find_sensor("P1");
   EXPECT_EQ(c.measured_file(p1), "other.csv");
   EXPECT_EQ(c.measured_file(*c.find_sensor("H1")), "") << "nothing measured";

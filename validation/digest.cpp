@@ -134,8 +134,8 @@ struct BinValues {
   std::size_t points = 0;
 };
 
-/// Values with times in the bin, its end excluded; times may repeat. A time that is written as an edge, such as 1.275 s,
-/// begins a bin whatever the rounding of 51 times 0.025.
+/// Values with times in the bin, its end excluded; times may repeat. A time that is written as an edge, such as 1.275
+/// s, begins a bin whatever the rounding of 51 times 0.025.
 std::span<const double> samples_in(const Curve& curve, Window edges) {
   constexpr double rounding_s = 1e-9;
   const auto first = first_at_or_after(curve, edges.begin_s - rounding_s);
@@ -195,8 +195,7 @@ void bridge_gaps(std::vector<BinValues>& bins) {
     if (bins[right].points == 0) continue;
     for (std::size_t k = left + 1; k < right; ++k) {
       const double share = static_cast<double>(k - left) / static_cast<double>(right - left);
-      for (double BinValues::*value :
-           {&BinValues::mean, &BinValues::low, &BinValues::high, &BinValues::smoothed_high})
+      for (double BinValues::*value : {&BinValues::mean, &BinValues::low, &BinValues::high, &BinValues::smoothed_high})
         bins[k].*value = bins[left].*value + share * (bins[right].*value - bins[left].*value);
     }
     left = right;

@@ -60,9 +60,9 @@ std::filesystem::path raw_data_folder();
 ///
 /// Of a recording the mean is the integral of the samples' linear interpolant over the bin, divided by its width, so
 /// that impulses over whole bins survive; a first or last bin that the samples cover by less than nine tenths is left
-/// out. Of a scatter it is the mean of the bin's points, each counting alike; their number is kept as `<name>_points_1`,
-/// a bin without points gets the straight line between its neighbours, and half a cover suffices at the ends. Running
-/// means are those of the interpolant, through the mean of points at equal times.
+/// out. Of a scatter it is the mean of the bin's points, each counting alike; their number is kept as
+/// `<name>_points_1`, a bin without points gets the straight line between its neighbours, and half a cover suffices at
+/// the ends. Running means are those of the interpolant, through the mean of points at equal times.
 ///
 /// Throws std::runtime_error naming file and line when a raw file is not what the description says.
 void make_digest(const DigestSource& source, const std::vector<std::filesystem::path>& raw_paths,

@@ -141,9 +141,9 @@ struct Comparison {
   std::string sensor;  ///< the measured series' name, such as "P1"
   std::string unit;
   Window window;
-  Pair arrival_s;  ///< both at `arrival_fraction` of the measured peak, so that a spike does not move the threshold
+  Pair arrival_s;    ///< both at `arrival_fraction` of the measured peak, so that a spike does not move the threshold
   Pair half_peak_s;  ///< both at half of the measured peak, first time
-  Pair peak;       ///< raw
+  Pair peak;         ///< raw
   Pair peak_time_s;
   Pair smoothed_peak;  ///< after a running mean of both
   Pair smoothed_peak_time_s;

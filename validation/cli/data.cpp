@@ -30,9 +30,10 @@ std::vector<fs::path> raw_paths(const Arguments& arguments, const DigestSource& 
 int digest(const Arguments& arguments) {
   const std::vector<DigestPlan> plans = digest_plans(resolve_in_source_tree(arguments.folder));
   if (plans.size() > 1 && !(arguments.raw.empty() && arguments.out.empty()))
-    throw UsageError(fmt::format("{} makes {} digests, so --raw and --out cannot say which (put the raw files where "
-                                 "its descriptions expect them, below $SLUICE_RAW_DATA)",
-                                 arguments.folder, plans.size()));
+    throw UsageError(
+        fmt::format("{} makes {} digests, so --raw and --out cannot say which (put the raw files where "
+                    "its descriptions expect them, below $SLUICE_RAW_DATA)",
+                    arguments.folder, plans.size()));
   for (const DigestPlan& plan : plans) {
     const DigestSource source = load_digest_source(plan.description);
     const std::vector<fs::path> raw = raw_paths(arguments, source);
@@ -53,9 +54,11 @@ void add_data(CLI::App& app, int& exit_code) {
   data->footer("Example:\n  sluice data digest --help");
   CLI::App* command = data->add_subcommand("digest", "Make the digests of a data folder from its raw files");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("FOLDER", arguments->folder, "Data folder with source.toml (and NAME.source.toml)")->capture_default_str();
-  command->add_option("--raw", arguments->raw,
-                      "Raw file, as many as source.toml names (default: those, below $SLUICE_RAW_DATA or ../shared/data)");
+  command->add_option("FOLDER", arguments->folder, "Data folder with source.toml (and NAME.source.toml)")
+      ->capture_default_str();
+  command->add_option(
+      "--raw", arguments->raw,
+      "Raw file, as many as source.toml names (default: those, below $SLUICE_RAW_DATA or ../shared/data)");
   command->add_option("--out", arguments->out, "Digest (default: FOLDER/digest.csv)");
   command->footer(
       "Examples:\n"

@@ -37,15 +37,16 @@ std::string shown_directory(const std::filesystem::path& path) {
 /// quantity.
 std::optional<std::string> model_of(const std::string& column, const CaseSensor& sensor) {
   const std::string prefix = sensor.name + "_";
-  const std::string suffix = "_" + std::string(unit_of(sensor.kind));
+  const std::string suffix = fmt::format("_{}", unit_of(sensor.kind));
   if (column == probe_column(sensor)) return "";
   if (!column.starts_with(prefix) || !column.ends_with(suffix)) return std::nullopt;
   if (column.size() <= prefix.size() + suffix.size()) return std::nullopt;
   return column.substr(prefix.size(), column.size() - prefix.size() - suffix.size());
 }
 
-SensorReading make_reading(const CaseSensor& sensor, const std::string& model, Series series,
-                           const MeasuredSeries* measured, Window window) {
+SensorReading make_reading(const Case& c, const CaseSensor& sensor, const std::string& model, Series series,
+                           const MeasuredSeries* measured) {
+  const Window window = comparison_window(c, sensor);
   SensorReading reading;
   reading.sensor = sensor.name;
   reading.kind = sensor.kind;
@@ -55,12 +56,12 @@ SensorReading make_reading(const CaseSensor& sensor, const std::string& model, S
     reading.comparison.remarks.push_back("no samples");
     return reading;
   }
-  reading.comparison =
-      measured != nullptr ? compare(reading.series, *measured, window) : describe(reading.series, window);
+  reading.comparison = measured != nullptr ? compare(reading.series, *measured, window, comparison_options(sensor))
+                                           : describe(reading.series, window);
   return reading;
 }
 
-void read_sensor(AnalysedRun& run, const CaseSensor& sensor, const MeasuredSeries* measured, Window window) {
+void read_sensor(AnalysedRun& run, const Case& c, const CaseSensor& sensor, const MeasuredSeries* measured) {
   std::vector<std::string> models;
   for (const std::string& column : run.record.probes.names())
     if (const auto model = model_of(column, sensor)) models.push_back(*model);
@@ -69,9 +70,10 @@ void read_sensor(AnalysedRun& run, const CaseSensor& sensor, const MeasuredSerie
   for (const std::string& model : models) {
     if (model.empty() && named) continue;  // repeats the primary model's column
     run.readings.push_back(
-        make_reading(sensor, model, run.record.probes.column(probe_column(sensor, model)), measured, window));
+        make_reading(c, sensor, model, run.record.probes.column(probe_column(sensor, model)), measured));
     // A dynamic wall's density can rise but never fall below the reference: its own pressure means nothing.
-    run.readings.back().warning_only = run.record.walls == "dynamic" && model == "wall";
+    run.readings.back().warning_only =
+        run.record.walls == "dynamic" && (model == "wall" || (sensor.kind == SensorKind::force && model == "pressure"));
     run.readings.back().primary = named ? model == primary : model.empty() || models.size() == 1;
   }
 }
@@ -148,20 +150,6 @@ void name_run(AnalysedRun& run, std::size_t index, const Case& c) {
   run.directory = shown_directory(r.path);
 }
 
-void load_measured(ReportData& data) {
-  const std::filesystem::path file = resolve_in_source_tree(data.the_case.measured);
-  if (data.the_case.measured.empty()) {
-    data.measured_problem = "the case names no measured series";
-    return;
-  }
-  if (!std::filesystem::exists(file)) {
-    data.measured_problem =
-        fmt::format("{} does not exist (remedy: sluice data digest)", data.the_case.measured.generic_string());
-    return;
-  }
-  data.measured = MeasuredData::load(file);
-}
-
 std::vector<RunRecord> read_runs(const std::vector<std::filesystem::path>& run_directories) {
   if (run_directories.empty())
     throw std::runtime_error("report: no run directory given (remedy: sluice report DIR...)");
@@ -204,9 +192,19 @@ std::vector<const SensorReading*> AnalysedRun::of(const std::string& sensor) con
 }
 
 const MeasuredSeries* ReportData::measured_series(const std::string& sensor) const {
-  const CaseSensor* s = the_case.find_sensor(sensor);
-  if (s == nullptr || s->measured.empty() || !measured || !measured->has(s->measured)) return nullptr;
-  return &measured->series(s->measured);
+  return measured.find(sensor);
+}
+
+Window ReportData::window_of(const std::string& sensor) const {
+  const CaseSensor* found = the_case.find_sensor(sensor);
+  return found == nullptr ? window : comparison_window(the_case, *found);
+}
+
+std::string ReportData::measured_remark(const std::string& sensor) const {
+  const CaseSensor* found = the_case.find_sensor(sensor);
+  if (found == nullptr || measured_series(sensor) == nullptr) return "Measured: missing.";
+  if (found->measured_shift_s == 0) return "";
+  return fmt::format("{} s were added to the measured times, as the case declares.", shortest(found->measured_shift_s));
 }
 
 std::vector<std::string> ReportData::sensors(SensorKind kind) const {
@@ -220,7 +218,8 @@ std::vector<std::string> ReportData::headline_sensors() const {
   std::vector<std::string> names;
   for (const PublishedImpulse& row : the_case.published.impulses)
     if (std::find(names.begin(), names.end(), row.sensor) == names.end()) names.push_back(row.sensor);
-  return names.empty() ? sensors(SensorKind::pressure) : names;
+  if (names.empty()) names = sensors(SensorKind::pressure);
+  return names.empty() ? sensors(SensorKind::force) : names;
 }
 
 ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
@@ -228,14 +227,14 @@ ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
   ReportData data;
   data.the_case = load_case(records.front().case_name);
   data.window = {data.the_case.window.start_s, data.the_case.window.end_s};
-  load_measured(data);
+  data.measured = Measurements::load(data.the_case);
   for (RunRecord& record : records) {
     AnalysedRun run;
     run.record = std::move(record);
     name_run(run, data.runs.size(), data.the_case);
     for (const CaseSensor& sensor : data.the_case.sensors)
-      read_sensor(run, sensor, data.measured_series(sensor.name), data.window);
-    run.acceptance = check_acceptance(data.the_case, run.record, data.measured ? &*data.measured : nullptr);
+      read_sensor(run, data.the_case, sensor, data.measured_series(sensor.name));
+    run.acceptance = check_acceptance(data.the_case, run.record, data.measured);
     note_problems(run, data);
     data.runs.push_back(std::move(run));
   }

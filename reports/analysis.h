@@ -8,7 +8,7 @@
 
 #include "validation/acceptance.h"
 #include "validation/case.h"
-#include "validation/measured.h"
+#include "validation/measurements.h"
 #include "validation/metrics.h"
 #include "validation/run_directory.h"
 
@@ -23,7 +23,7 @@ struct SensorReading {
   Series series;
   Comparison comparison;
 
-  bool warning_only = false;  ///< the wall's own pressure with dynamic walls, which means nothing
+  bool warning_only = false;  ///< from the wall's own pressure with dynamic walls, which means nothing
 
   /// The model in words, "as delivered" when there is none.
   std::string model_name() const { return model.empty() ? "as delivered" : model; }
@@ -49,15 +49,21 @@ struct AnalysedRun {
 
 struct ReportData {
   Case the_case;
-  std::optional<MeasuredData> measured;
-  std::string measured_problem;  ///< why there is none
+  Measurements measured;
   Window window;
   std::vector<AnalysedRun> runs;  ///< own before others, then by solver, walls, l0 (coarse first), alpha (large first)
 
   const MeasuredSeries* measured_series(const std::string& sensor) const;
+  /// Over which the sensor is compared.
+  Window window_of(const std::string& sensor) const;
   std::vector<std::string> sensors(SensorKind kind) const;
-  /// The pressure sensors for which the paper prints impulses, in its order (all pressure sensors if it prints none).
+  bool has(SensorKind kind) const { return !sensors(kind).empty(); }
+  /// By whose impulses runs are ranked: the pressure sensors for which the paper prints impulses, in its order; if it
+  /// prints none all pressure sensors, or without these all forces.
   std::vector<std::string> headline_sensors() const;
+  /// What a reader of this sensor's comparisons must know of its measurement: "Measured: missing.", or by how much its
+  /// clock was shifted; empty when there is nothing to say.
+  std::string measured_remark(const std::string& sensor) const;
 };
 
 /// Reads the runs and compares them. Throws std::runtime_error when no run is given, a run cannot be read, the runs are

@@ -26,23 +26,30 @@ inline constexpr std::size_t runs_a_panel = 5;
 /// A run's series over a window, times `unit`, thinned for drawing.
 PlotCurve run_curve(const AnalysedRun& run, const Series& series, Window window, int style, double unit);
 
-/// The whole window: wave heights as they are, pressures after a 10 ms running mean; one panel a group of runs.
-std::vector<Picture> series_figures(const FigureMaker& maker, SensorKind kind);
+/// The whole window, one panel a group of runs: pressures and forces after a 10 ms running mean unless `raw`, wave
+/// heights and velocities as they are.
+std::vector<Picture> series_figures(const FigureMaker& maker, SensorKind kind, bool raw = false);
 /// The same wave heights as read by model `top`, where that is not the primary reading.
 std::vector<Picture> spray_figures(const FigureMaker& maker);
-/// The first impact on each pressure sensor, raw.
-std::vector<Picture> impact_figures(const FigureMaker& maker);
+/// The first impact on each sensor of a kind, raw.
+std::vector<Picture> impact_figures(const FigureMaker& maker, SensorKind kind);
+/// Each force of each run by both routes.
+std::vector<Picture> route_figures(const FigureMaker& maker);
+/// The case's boxes at the start in plan and elevation, with their lengths.
+std::vector<Picture> geometry_figures(const FigureMaker& maker);
 
 /// Impulse deviations of every run beside the paper's, at the headline sensors.
 std::vector<Picture> impulse_figures(const FigureMaker& maker);
 std::vector<Picture> boundary_model_figures(const FigureMaker& maker);
 std::vector<Picture> alpha_figures(const FigureMaker& maker);
+/// Peak, impulse and noise of each force against alpha.
+std::vector<Picture> force_alpha_figures(const FigureMaker& maker);
 std::vector<Picture> resolution_figures(const FigureMaker& maker);
 std::vector<Picture> cost_figures(const FigureMaker& maker);
 /// Energy of the fluid and its densest particle over time, one picture a group of runs.
 std::vector<Picture> conservation_figures(const FigureMaker& maker);
 
-/// The paper's figure 3: particles coloured by dimensionless pressure, one picture a run that kept snapshots.
+/// Particles coloured by dimensionless pressure or velocity, as the case asks, one picture a run that kept snapshots.
 std::vector<Picture> snapshot_figures(const FigureMaker& maker);
 
 }  // namespace sluice

@@ -1,5 +1,5 @@
-// The paper's figure 3: particles at a few times, coloured by dimensionless pressure. Drawn as PNG: tens of thousands
-// of discs are too many for a vector drawing.
+// The paper's figures 3 and 11: particles at a few times, coloured by dimensionless pressure or velocity. Drawn as PNG:
+// tens of thousands of discs are too many for a vector drawing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,30 @@ namespace sluice {
 
 namespace {
 
-constexpr double largest_p_star = 1.0;
+/// How a quantity is shown: on what scale, and in what words.
+struct Scale {
+  ParticleColour colour;
+  double tick = 0.25;
+  std::string symbol;
+  std::string label;
+  std::string words;
+};
+
+const Scale& scale_of(const Case& the_case) {
+  static const Scale pressure{{ParticleColour::Of::pressure, 1.0},
+                              0.25,
+                              "P*",
+                              "dimensionless pressure P* = P / (ρ g H_W)",
+                              "dimensionless pressure"};
+  // A front on a dry bed runs at 2 sqrt(g H).
+  static const Scale velocity{{ParticleColour::Of::velocity, 2.0},
+                              0.5,
+                              "v*",
+                              "dimensionless velocity v* = |u| / √(g H_W)",
+                              "dimensionless velocity"};
+  return the_case.published.snapshots_colour == "velocity" ? velocity : pressure;
+}
+
 constexpr double nearest_within_s = 0.03;
 constexpr int panel_width_px = 760;
 
@@ -47,11 +70,29 @@ void write_discs(std::ofstream& out, const std::vector<SnapshotDisc>& discs) {
   out << "\n\n";
 }
 
-std::string edges_script(const Box& box, const char* colour) {
+/// Arrows numbered from `first` on, so that they can be taken away again.
+std::string edges_script(const Box& box, const char* colour, int first) {
   std::string out;
   for (const auto& [from, to] : box_edges(box))
-    out += fmt::format("set arrow from {:.4f},{:.4f} to {:.4f},{:.4f} nohead lw 1 lc rgb '{}' back\n", from.first,
-                       from.second, to.first, to.second, colour);
+    out += fmt::format("set arrow {} from {:.4f},{:.4f} to {:.4f},{:.4f} nohead lw 1 lc rgb '{}' back\n", first++,
+                       from.first, from.second, to.first, to.second, colour);
+  return out;
+}
+
+constexpr const char* edge_colour = "#8A979F";
+constexpr const char* moving_edge_colour = "#D55E00";
+constexpr int edges_of_a_box = 12;
+
+/// Bodies that move, where they are at a time; `first` is the number of their first arrow.
+std::string moving_edges_script(const Case& the_case, double t_s, int first) {
+  std::string out;
+  for (const Obstacle& obstacle : the_case.obstacles) {
+    if (!obstacle.motion.moves()) continue;
+    for (int k = 0; k < edges_of_a_box; ++k) out += fmt::format("unset arrow {}\n", first + k);
+    if (const auto box = obstacle_at(obstacle, t_s, the_case.tank))
+      out += edges_script(*box, moving_edge_colour, first);
+    first += edges_of_a_box;
+  }
   return out;
 }
 
@@ -74,8 +115,8 @@ set yrange [{6:.4f}:{7:.4f}]
 
 constexpr const char* colour_bar = R"(set palette defined ({0})
 set cbrange [0:{1}]
-set cbtics 0.25
-set cblabel 'dimensionless pressure P* = P / (ρ g H_W)' offset 0,0.3
+set cbtics {5}
+set cblabel '{6}' offset 0,0.3
 set colorbox horizontal user origin screen 0.3,{2:.4f} size screen 0.4,{3:.4f}
 unset arrow
 unset title
@@ -110,6 +151,13 @@ SnapshotFrame frame_of(const Case& the_case, std::size_t panels) {
   return frame;
 }
 
+/// Arrows 1 to 12 are the tank's, then those of bodies at rest, then those of bodies that move.
+int first_moving_arrow(const Case& the_case) {
+  const auto at_rest = std::count_if(the_case.obstacles.begin(), the_case.obstacles.end(),
+                                     [](const Obstacle& obstacle) { return !obstacle.motion.moves(); });
+  return 1 + edges_of_a_box * (1 + static_cast<int>(at_rest));
+}
+
 std::string snapshot_script_head(const Case& the_case, const SnapshotFrame& frame, const std::string& name,
                                  const std::string& label) {
   const double total = frame.total_px;
@@ -117,20 +165,30 @@ std::string snapshot_script_head(const Case& the_case, const SnapshotFrame& fram
                                    frame.left, frame.right, frame.bottom, frame.top);
   script += fmt::format("set multiplot layout {},2 margins 0.01,0.99,{:.4f},{:.4f} spacing 0.01,{:.4f}\n", frame.rows,
                         bar_px / total, 1.0 - 30.0 / total, title_px / total);
-  script += edges_script(the_case.tank, "#8A979F");
-  for (const Obstacle& obstacle : the_case.obstacles)
-    if (!obstacle.motion.moves()) script += edges_script(obstacle.box, "#8A979F");
+  int arrow = first_moving_arrow(the_case);
+  script += edges_script(the_case.tank, edge_colour, 1);
+  for (const Obstacle& obstacle : the_case.obstacles) {
+    if (obstacle.motion.moves()) continue;
+    arrow -= edges_of_a_box;
+    script += edges_script(obstacle.box, edge_colour, arrow);
+  }
   return script;
+}
+
+bool anything_moves(const Case& the_case) {
+  return std::any_of(the_case.obstacles.begin(), the_case.obstacles.end(),
+                     [](const Obstacle& obstacle) { return obstacle.motion.moves(); });
 }
 
 std::string snapshot_caption(const Case& the_case, const AnalysedRun& run, const std::string& times) {
   const int number = the_case.published.snapshots_figure;
   const std::string figure = number > 0 ? fmt::format(" (the paper's figure {})", number) : "";
+  const Scale& scale = scale_of(the_case);
   return fmt::format(
-      "{}: particles at t = {} s{}, coloured by P*; values above {:g} take the brightest colour. Only what nothing "
-      "nearer "
-      "hides is drawn; the tank's own walls are left out.",
-      run.label, times, figure, largest_p_star);
+      "{}: particles at t = {} s{}, coloured by {}; values above {:g} take the brightest colour. Only what nothing "
+      "nearer hides is drawn; the tank's own walls are left out{}.",
+      run.label, times, figure, scale.symbol, scale.colour.largest,
+      anything_moves(the_case) ? ", and so is a body that has moved out of the tank" : "");
 }
 
 Picture draw_snapshots(const FigureMaker& maker, const AnalysedRun& run, const std::vector<SnapshotEntry>& entries) {
@@ -141,10 +199,12 @@ Picture draw_snapshots(const FigureMaker& maker, const AnalysedRun& run, const s
   const SnapshotFrame frame = frame_of(the_case, entries.size());
   std::string script = snapshot_script_head(the_case, frame, name, run.label);
   std::ofstream data(folder / (name + ".dat"));
+  const Scale& scale = scale_of(the_case);
   int index = 0;
   std::string times;
   for (const SnapshotEntry& entry : entries) {
-    write_discs(data, snapshot_discs(read_vtp(entry.file), the_case, run.record.l0_m, largest_p_star));
+    write_discs(data, snapshot_discs(read_vtp(entry.file), the_case, run.record.l0_m, scale.colour));
+    script += moving_edges_script(the_case, entry.time_s, first_moving_arrow(the_case));
     script += fmt::format("set title 't = {:.2f} s' offset 0,-0.5\n", entry.time_s);
     script += fmt::format(
         "plot '{}.dat' index {} using 1:2:({:.5f}):3 with circles lc rgb variable fill solid 1.0 noborder\n", name,
@@ -152,12 +212,12 @@ Picture draw_snapshots(const FigureMaker& maker, const AnalysedRun& run, const s
     times += fmt::format("{}{:.2f}", times.empty() ? "" : ", ", entry.time_s);
   }
   data.close();
-  script += fmt::format(fmt::runtime(colour_bar), palette_stops(), largest_p_star, 80.0 / frame.total_px,
-                        18.0 / frame.total_px, name);
+  script += fmt::format(fmt::runtime(colour_bar), palette_stops(), scale.colour.largest, 80.0 / frame.total_px,
+                        18.0 / frame.total_px, name, scale.tick, scale.label);
   std::ofstream(folder / (name + ".gp")) << script;
   run_gnuplot(folder, {name + ".gp"});
   std::filesystem::remove(folder / (name + ".dat"));
-  return {name, snapshot_caption(the_case, run, times), "Particles of the dam break coloured by dimensionless pressure",
+  return {name, snapshot_caption(the_case, run, times), "Particles of the dam break coloured by " + scale.words,
           std::filesystem::path("figures") / (name + ".png"), true};
 }
 

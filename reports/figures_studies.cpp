@@ -20,6 +20,34 @@ std::string runs_label(const std::vector<const AnalysedRun*>& runs) {
 
 }  // namespace
 
+namespace {
+
+/// Curves of errors or of values; their unit is cut off an error's name, for the axis has it.
+PlotPanel resolution_panel(const ReportData& data, const ResolutionSeries& series, bool values) {
+  PlotPanel panel;
+  panel.title = series.title;
+  panel.x_label = "particle distance l0 [mm]";
+  panel.y_label = values ? "value, in the unit named below" : "error, unsigned [%]";
+  panel.y_range = {0.0, std::nullopt};
+  int style = 0;
+  for (const ResolutionQuantity& quantity : resolution_quantities(data, series)) {
+    const bool percent = quantity.name.ends_with("[%]");
+    if (quantity.shows_value != values || (!values && !percent) || style >= plot_style_count()) continue;
+    PlotCurve curve;
+    curve.label = values ? quantity.name : quantity.name.substr(0, quantity.name.size() - 4);
+    curve.style = style++;
+    curve.every_point = true;
+    for (const ResolutionPoint& point : quantity.points) {
+      curve.x.push_back(1000 * point.l0_m);
+      curve.y.push_back(values ? point.value : std::abs(point.error));
+    }
+    panel.curves.push_back(std::move(curve));
+  }
+  return panel;
+}
+
+}  // namespace
+
 std::vector<Picture> resolution_figures(const FigureMaker& maker) {
   std::vector<Picture> pictures;
   if (!maker.enabled) return pictures;
@@ -28,28 +56,15 @@ std::vector<Picture> resolution_figures(const FigureMaker& maker) {
     PlotFigure figure;
     figure.name = fmt::format("resolution_{}", ++index);
     figure.source = runs_label(series.runs);
-    PlotPanel panel;
-    panel.title = series.title;
-    panel.x_label = "particle distance l0 [mm]";
-    panel.y_label = "error, unsigned [%]";
-    int style = 0;
-    for (const ResolutionQuantity& quantity : resolution_quantities(maker.data, series)) {
-      if (!quantity.name.ends_with("[%]") || style >= plot_style_count()) continue;
-      PlotCurve curve;
-      curve.label = quantity.name.substr(0, quantity.name.size() - 4);
-      curve.style = style++;
-      curve.every_point = true;
-      for (const ResolutionPoint& point : quantity.points) {
-        curve.x.push_back(1000 * point.l0_m);
-        curve.y.push_back(std::abs(point.error));
-      }
-      panel.curves.push_back(std::move(curve));
+    for (const bool values : {false, true}) {
+      PlotPanel panel = resolution_panel(maker.data, series, values);
+      if (!panel.curves.empty()) figure.panels.push_back(std::move(panel));
     }
-    panel.y_range = {0.0, std::nullopt};
-    figure.panels = {panel};
+    if (figure.panels.empty()) continue;
+    const char* what = maker.data.has(SensorKind::force) ? "Forces and errors" : "Errors";
     pictures.push_back(draw_picture(maker, figure,
-                                    fmt::format("Errors against the particle distance, {}.", series.title),
-                                    "Errors of impulses and wave heights against the particle distance"));
+                                    fmt::format("{} against the particle distance, {}.", what, series.title),
+                                    fmt::format("{} against the particle distance", what)));
   }
   return pictures;
 }

@@ -133,6 +133,49 @@ std::string wave_finding(const ReportData& data) {
   return out.empty() ? "" : "**Wave heights**, RMSE over the measured range: " + out + ".";
 }
 
+/// "simulated 31.2 N (R1), -4.7 %" or, of several runs, the closest and the farthest; without a measurement the span.
+std::string force_quantity(const ReportData& data, const std::string& sensor, const std::string& unit, int decimals,
+                           Pair Comparison::*quantity) {
+  const auto pair_of = [&](const AnalysedRun& run) -> const Pair& { return run.primary(sensor)->comparison.*quantity; };
+  const bool measured = data.measured_series(sensor) != nullptr;
+  const auto runs = ranked(data, [&](const AnalysedRun& run) -> std::optional<double> {
+    if (run.primary(sensor) == nullptr) return std::nullopt;
+    return measured ? pair_of(run).deviation() : pair_of(run).simulated;
+  });
+  if (runs.empty()) return "missing in every run";
+  const auto words = [&](const AnalysedRun& run) {
+    const Pair& pair = pair_of(run);
+    const std::string value = fmt::format("{} {} ({}", fixed(*pair.simulated, decimals), unit, run.key);
+    return measured ? fmt::format("{}, {} %)", value, with_sign(100 * *pair.deviation(), 1)) : value + ")";
+  };
+  std::string out =
+      measured ? fmt::format("measured {} {}; ", fixed(*pair_of(*runs.front().run).measured, decimals), unit) : "";
+  out += words(*runs.front().run);
+  return runs.size() > 1 ? out + " to " + words(*runs.back().run) : out;
+}
+
+std::string half_peak_words(const ReportData& data, const std::string& sensor) {
+  const auto runs = ranked(data, [&](const AnalysedRun& run) -> std::optional<double> {
+    const SensorReading* reading = run.primary(sensor);
+    return reading == nullptr ? std::nullopt : reading->comparison.half_peak_s.difference();
+  });
+  if (runs.empty()) return "";
+  std::string out = fmt::format("; half of the measured peak is reached {} ms later ({})",
+                                with_sign(1000 * runs.front().value, 0), runs.front().run->key);
+  return runs.size() > 1
+             ? out + fmt::format(" to {} ms ({})", with_sign(1000 * runs.back().value, 0), runs.back().run->key)
+             : out;
+}
+
+std::string force_finding(const ReportData& data, const std::string& sensor) {
+  const Window window = data.window_of(sensor);
+  return fmt::format("**Force** {}{}: peak after a 10 ms running mean {}; impulse over {} to {} s {}{}.", sensor,
+                     data.measured_series(sensor) == nullptr ? " (measured: missing)" : "",
+                     force_quantity(data, sensor, "N", 2, &Comparison::smoothed_peak), shortest(window.begin_s),
+                     shortest(window.end_s), force_quantity(data, sensor, "N s", 2, &Comparison::impulse),
+                     half_peak_words(data, sensor));
+}
+
 std::string lost_finding(const ReportData& data) {
   double through = 0;
   std::vector<std::string> leaking;
@@ -183,13 +226,14 @@ std::string walls_finding(const ReportData& data) {
 
 std::vector<std::string> findings(const ReportData& data) {
   std::vector<std::string> out;
-  if (!data.headline_sensors().empty()) {
+  for (const std::string& sensor : data.sensors(SensorKind::force)) out.push_back(force_finding(data, sensor));
+  if (data.has(SensorKind::pressure)) {
     out.push_back(impulse_finding(data));
     out.push_back(arrival_finding(data));
     out.push_back(peak_finding(data));
   }
   out.push_back(wave_finding(data));
-  if (!data.headline_sensors().empty()) out.push_back(walls_finding(data));
+  if (data.has(SensorKind::pressure)) out.push_back(walls_finding(data));
   out.push_back(lost_finding(data));
   const AcceptanceCount count = count_acceptance(data);
   if (count.passed + count.failed + count.missing > 0)
@@ -199,8 +243,32 @@ std::vector<std::string> findings(const ReportData& data) {
   return out;
 }
 
+namespace {
+
+void add_force_keys(std::vector<KeyNumber>& keys, const ReportData& data) {
+  for (const std::string& sensor : data.sensors(SensorKind::force)) {
+    const bool measured = data.measured_series(sensor) != nullptr;
+    const auto runs = ranked(data, [&](const AnalysedRun& run) -> std::optional<double> {
+      const SensorReading* reading = run.primary(sensor);
+      if (reading == nullptr) return std::nullopt;
+      const Pair& peak = reading->comparison.smoothed_peak;
+      return measured ? peak.deviation() : peak.simulated;
+    });
+    if (runs.empty()) continue;
+    const std::string run = runs.front().run->label;
+    keys.push_back(measured
+                       ? KeyNumber{"Peak of " + sensor, with_sign(100 * runs.front().value, 1) + " %",
+                                   "after a 10 ms running mean, closest run: " + run}
+                       : KeyNumber{"Peak of " + sensor, fixed(runs.front().value, 2) + " N",
+                                   "after a 10 ms running mean, smallest of the runs: " + run + "; measured: missing"});
+  }
+}
+
+}  // namespace
+
 std::vector<KeyNumber> key_numbers(const ReportData& data) {
   std::vector<KeyNumber> keys;
+  add_force_keys(keys, data);
   const auto runs = by_impulse(data);
   if (!runs.empty())
     keys.push_back({"Impulses of " + list(data.headline_sensors()), percent(runs.front().value),

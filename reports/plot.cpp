@@ -54,12 +54,17 @@ class DataFile {
   explicit DataFile(const std::filesystem::path& file) : path_(file), out_(file) {}
 
   void begin(const std::string& comment) {
+    gap_ = false;
     if (blocks_++ > 0) out_ << "\n\n";
     out_ << "# " << comment << '\n';
   }
   template <class... Values>
   void row(Values... values) {
-    if (!(std::isfinite(values) && ...)) return;
+    if (!(std::isfinite(values) && ...)) {
+      gap_ = rows_ > 0;
+      return;
+    }
+    if (std::exchange(gap_, false)) out_ << '\n';  // one blank line breaks a curve, two end its block
     const char* separator = "";
     ((out_ << separator << fmt::format("{:.6g}", values), separator = " "), ...);
     out_ << '\n';
@@ -83,6 +88,7 @@ class DataFile {
   std::ofstream out_;
   int blocks_ = 0;
   int rows_ = 0;
+  bool gap_ = false;
 };
 
 std::string range_text(const PlotRange& range) {

@@ -65,7 +65,7 @@ struct PlotFigure {
 int plot_style_count();
 
 /// Writes the figure's files into `folder` (made when missing) and runs gnuplot. Returns the picture's path.
-/// Points that are not finite are left out. Throws as run_gnuplot().
+/// A point that is not finite is left out, and interrupts its curve. Throws as run_gnuplot().
 std::filesystem::path draw(const PlotFigure& figure, const std::filesystem::path& folder);
 
 /// For drawing a long series in `columns` pixel columns: each column keeps its smallest and largest sample at their own

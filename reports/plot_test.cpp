@@ -99,11 +99,38 @@ TEST(SnapshotView, FarParticlesComeFirstAndHiddenOnesAreLeftOut) {
   snapshot.position_m = {{1, 0, 0.5f}, {2, 0.5f, 0.5f}, {1 - 0.38f * s, s, 0.5f - 0.27f * s}};
   snapshot.pressure_Pa = {0, 4905, 0};
   snapshot.fluid_count = 3;
-  const auto discs = snapshot_discs(snapshot, c, 0.02, 1.0);
+  const auto discs = snapshot_discs(snapshot, c, 0.02, {});
   ASSERT_EQ(discs.size(), 2u);
   EXPECT_NEAR(discs[0].x, 2 + 0.38 * 0.5, 1e-6) << "the farther of the two seen";
   EXPECT_EQ(discs[0].colour, viridis(1.0));
   EXPECT_EQ(discs[1].colour, viridis(0.0));
+}
+
+TEST(SnapshotView, SpeedColoursTheFluidAndLeavesWallsGrey) {
+  Case c;
+  c.gravity_m_s2 = {0, 0, -9.81};
+  c.water_height_m = 0.1;
+  c.density_kg_m3 = 1000;
+  c.tank = {{0, 0, 0}, {2, 1, 1}};
+  c.obstacles = {{{{0.4, 0, 0}, {0.6, 0.2, 0.5}}}};
+  ParticleSnapshot snapshot;
+  snapshot.position_m = {{1, 0, 0.5f}, {0.5f, 0.1f, 0.2f}};
+  snapshot.velocity_m_s = {{0, 0.990454f, 0}, {0, 0, 0}};  // sqrt(g H)
+  snapshot.pressure_Pa = {0, 5000};
+  snapshot.fluid_count = 1;
+  const auto discs = snapshot_discs(snapshot, c, 0.02, {ParticleColour::Of::velocity, 2});
+  ASSERT_EQ(discs.size(), 2u);
+  EXPECT_EQ(discs[0].colour, 0xB9C2C8u) << "a wall under pressure";
+  EXPECT_EQ(discs[1].colour, viridis(0.5));
+}
+
+TEST(SnapshotView, ABodyThatMovesIsWhereItIsAtThatTime) {
+  const Box tank{{0, 0, 0}, {2, 1, 0.3}};
+  Obstacle gate{{{1, 0.4, 0}, {1.1, 0.6, 0.3}}, "gate", true, {{0, 0, 1.25}, 0, 1e9}};
+  EXPECT_NEAR(obstacle_at(gate, 0, tank)->lower.z, 0, 1e-12);
+  EXPECT_NEAR(obstacle_at(gate, 0.1, tank)->lower.z, 0.125, 1e-12);
+  EXPECT_NEAR(obstacle_at(gate, 0.1, tank)->upper.z, 0.3, 1e-12) << "cut off at the open top";
+  EXPECT_FALSE(obstacle_at(gate, 0.3, tank)) << "it has left";
 }
 
 TEST(SnapshotView, ColoursRunFromDarkToBright) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
@@ -33,8 +34,14 @@ void write_tables(const ReportDocument& document, const std::filesystem::path& f
 }
 
 std::string subtitle(const ReportData& data) {
-  return fmt::format("{} {} against the experiment and the published values. {}", data.runs.size(),
-                     data.runs.size() == 1 ? "simulation" : "simulations", data.the_case.reference);
+  const Case& c = data.the_case;
+  const bool measured = std::any_of(c.sensors.begin(), c.sensors.end(),
+                                    [&](const CaseSensor& s) { return data.measured_series(s.name) != nullptr; });
+  const bool published = !c.published.impulses.empty() || !c.published.runs.empty();
+  std::string against = measured ? " against the experiment" : "";
+  if (published) against += against.empty() ? " against the published values" : " and the published values";
+  return fmt::format("{} {}{}. {}", data.runs.size(), data.runs.size() == 1 ? "simulation" : "simulations", against,
+                     c.reference);
 }
 
 }  // namespace

@@ -12,10 +12,6 @@ namespace sluice {
 
 namespace {
 
-Paragraph hint(std::string text) {
-  return {std::move(text), true};
-}
-
 void append(ReportSection& section, const std::vector<Picture>& pictures) {
   for (const Picture& picture : pictures) section.blocks.push_back(picture);
 }
@@ -27,10 +23,13 @@ ReportSection summary_section(const ReportData& data) {
       "Every sentence above is computed from the runs named below. Unless said otherwise a run is judged by its "
       "primary readings: the sensor models that the case file names for its solver and its walls. “Missing” means that "
       "a run did not record a value, or did not get far enough to have one."));
+  if (!data.the_case.assumptions.empty()) {
+    section.blocks.push_back(Paragraph{"**Assumptions of the case**, where its sources are silent:"});
+    section.blocks.push_back(BulletList{data.the_case.assumptions});
+  }
   section.blocks.push_back(runs_table(data));
-  if (!data.measured_problem.empty())
-    section.blocks.push_back(
-        Paragraph{"**No measured series**: " + data.measured_problem + ". Deviations are missing throughout."});
+  for (const std::string& problem : data.measured.problems())
+    section.blocks.push_back(Paragraph{"**No measurement**: " + problem + ". What needs it is missing throughout."});
   return section;
 }
 
@@ -43,70 +42,9 @@ ReportSection parameters_section(const ReportData& data) {
   return section;
 }
 
-ReportSection impulses_section(const FigureMaker& maker) {
-  const ReportData& data = maker.data;
-  ReportSection section{"impulses", "Pressure impulses", {}};
-  section.blocks.push_back(
-      hint("The impulse is the integral of pressure over time. It does not hang on the shape of a peak that lasts a "
-           "millisecond, so it is the fairest single number for a load. Each sensor model has its own row: `wall` is "
-           "the mean "
-           "pressure of the wall's particles around the sensor, `kernel` the normalised sum over the fluid one "
-           "smoothing length "
-           "in front of it (the paper's probe)."));
-  section.blocks.push_back(paper_impulses_table(data));
-  append(section, impulse_figures(maker));
-  section.blocks.push_back(impulses_table(data, true));
-  Table values = impulses_table(data, false);
-  values.folded = true;
-  section.blocks.push_back(std::move(values));
-  Table early = early_runs_table(data);
-  if (!early.rows.empty()) section.blocks.push_back(std::move(early));
-  return section;
-}
-
-ReportSection pressures_section(const FigureMaker& maker) {
-  ReportSection section{"pressures", "Pressures on the box", {}};
-  section.blocks.push_back(hint(
-      "Black: the measurement, its mean in each bin; grey: lowest to highest sample in the bin. A weakly compressible "
-      "fluid starts an impact on a flat face with a water-hammer spike that lasts a few milliseconds and whose height "
-      "depends on the sampling. So the long views show a 10 ms running mean of the runs, the close views the raw "
-      "readings. "
-      "Curves are thinned for drawing, keeping the lowest and highest sample of each pixel column."));
-  append(section, series_figures(maker, SensorKind::pressure));
-  section.blocks.push_back(Paragraph{"**The first impact**, raw:"});
-  append(section, impact_figures(maker));
-  section.blocks.push_back(sensor_metrics_table(maker.data, SensorKind::pressure, false));
-  section.blocks.push_back(hint(
-      "Arrival: first crossing of 10 % of the measured peak, in both series. Noise: root mean square of what a 20 ms "
-      "running mean takes away. Inside band: share of time between the lowest and the highest measured sample. Best "
-      "lag: "
-      "shift of best correlation, positive when the simulation is late."));
-  section.blocks.push_back(kernel_support_table(maker.data));
-  Table all = sensor_metrics_table(maker.data, SensorKind::pressure, true);
-  all.folded = true;
-  section.blocks.push_back(std::move(all));
-  section.blocks.push_back(Paragraph{
-      "Curves of the mesh-based codes FreSCo and ConFlow, which the paper shows beside its own, exist as printed "
-      "figures only; no numbers were published, so none are drawn here."});
-  return section;
-}
-
-ReportSection waves_section(const FigureMaker& maker) {
-  ReportSection section{"waves", "Wave heights", {}};
-  section.blocks.push_back(
-      hint("Two ways to read a height: `column` is the first gap counted from the bed upwards, as a wire probe in "
-           "solid water "
-           "sees it; `top` is the highest water on the line, spray included. They differ where the wave overturns."));
-  append(section, series_figures(maker, SensorKind::wave_height));
-  const auto spray = spray_figures(maker);
-  if (!spray.empty()) section.blocks.push_back(Paragraph{"**The same probes with spray** (model `top`):"});
-  append(section, spray);
-  section.blocks.push_back(sensor_metrics_table(maker.data, SensorKind::wave_height, true));
-  return section;
-}
-
+// Forces by walls stand side by side in their own tables.
 void add_walls_section(std::vector<ReportSection>& sections, const FigureMaker& maker) {
-  if (wall_pairs(maker.data).empty()) return;
+  if (wall_pairs(maker.data).empty() || !maker.data.has(SensorKind::pressure)) return;
   ReportSection section{"walls", "Boundary models and sensor models", {}};
   section.blocks.push_back(hint(
       "Each group holds two runs that differ in their walls alone, and the paper's own numbers at the same α. Down a "
@@ -122,9 +60,16 @@ void add_walls_section(std::vector<ReportSection>& sections, const FigureMaker& 
 void add_alpha_section(std::vector<ReportSection>& sections, const FigureMaker& maker) {
   if (alpha_series(maker.data).empty()) return;
   ReportSection section{"alpha", "Artificial viscosity", {}};
-  section.blocks.push_back(hint("Runs that differ in α alone are joined by a line. Zero is the measurement."));
-  append(section, alpha_figures(maker));
-  section.blocks.push_back(alpha_table(maker.data));
+  section.blocks.push_back(hint(std::string("Runs that differ in α alone are joined by a line.") +
+                                (maker.data.has(SensorKind::pressure) ? " Zero is the measurement." : "")));
+  if (maker.data.has(SensorKind::pressure)) {
+    append(section, alpha_figures(maker));
+    section.blocks.push_back(alpha_table(maker.data));
+  }
+  if (maker.data.has(SensorKind::force)) {
+    append(section, force_alpha_figures(maker));
+    section.blocks.push_back(force_alpha_table(maker.data));
+  }
   sections.push_back(std::move(section));
 }
 
@@ -156,15 +101,18 @@ void add_snapshot_section(std::vector<ReportSection>& sections, const FigureMake
                   "(remedy: `sluice run ... --snapshots`)."});
   } else {
     section.blocks.push_back(
-        hint("The view is oblique, from the near side wall and above; the water comes from the right. Colour is "
-             "pressure over "
-             "the hydrostatic pressure at the bottom of the still column, so a calm column runs from 0 to 1."));
+        hint(std::string("The view is oblique, from the near side wall and above, x to the right. Colour is ") +
+             (maker.data.the_case.published.snapshots_colour == "velocity"
+                  ? "speed over √(g H_W), the speed of a long wave on the still water: a front on a dry bed runs at 2."
+                  : "pressure over the hydrostatic pressure at the bottom of the still column, so a calm column runs "
+                    "from 0 to 1.")));
     append(section, pictures);
   }
   sections.push_back(std::move(section));
 }
 
-ReportSection acceptance_section(const ReportData& data) {
+void add_acceptance_section(std::vector<ReportSection>& sections, const ReportData& data) {
+  if (data.the_case.acceptance.empty()) return;
   ReportSection section{"acceptance", "Acceptance", {}};
   const AcceptanceCount count = count_acceptance(data);
   section.blocks.push_back(Paragraph{
@@ -173,13 +121,22 @@ ReportSection acceptance_section(const ReportData& data) {
       "The bounds stand in the case file, set before the runs: a value on the bound passes. Bounds of deviations are "
       "signed, (simulated − measured) / measured."));
   section.blocks.push_back(acceptance_matrix(data));
-  return section;
+  sections.push_back(std::move(section));
+}
+
+void add_geometry_section(std::vector<ReportSection>& sections, const FigureMaker& maker) {
+  const auto pictures = geometry_figures(maker);
+  if (pictures.empty()) return;
+  ReportSection section{"geometry", "Geometry", {}};
+  append(section, pictures);
+  sections.push_back(std::move(section));
 }
 
 void add_conclusions_section(std::vector<ReportSection>& sections, const ReportData& data) {
-  if (data.the_case.published.impulses.empty()) return;
+  Table statements = conclusions_table(data);
+  if (statements.rows.empty()) return;
   ReportSection section{"conclusions", "The paper's statements", {}};
-  section.blocks.push_back(conclusions_table(data));
+  section.blocks.push_back(std::move(statements));
   sections.push_back(std::move(section));
 }
 
@@ -234,17 +191,16 @@ std::vector<ReportSection> report_sections(const FigureMaker& maker, bool snapsh
   const ReportData& data = maker.data;
   std::vector<ReportSection> sections;
   sections.push_back(summary_section(data));
+  add_geometry_section(sections, maker);
   sections.push_back(parameters_section(data));
-  sections.push_back(impulses_section(maker));
-  sections.push_back(pressures_section(maker));
-  sections.push_back(waves_section(maker));
+  add_sensor_sections(sections, maker);
   add_walls_section(sections, maker);
   add_alpha_section(sections, maker);
   add_resolution_section(sections, maker);
   if (snapshots && maker.enabled) add_snapshot_section(sections, maker);
   add_conclusions_section(sections, data);
   sections.push_back(conservation_section(maker));
-  sections.push_back(acceptance_section(data));
+  add_acceptance_section(sections, data);
   sections.push_back(cost_section(maker));
   sections.push_back(provenance_section(data));
   return sections;

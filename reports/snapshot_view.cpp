@@ -14,10 +14,16 @@ constexpr double right_by_depth = 0.38;
 constexpr double up_by_depth = 0.27;
 constexpr std::uint32_t dry_wall = 0xB9C2C8;
 
-bool in_obstacle(const Vec3d& p, const Case& the_case, double margin) {
-  return std::any_of(the_case.obstacles.begin(), the_case.obstacles.end(), [&](const Obstacle& o) {
-    const Box& b = o.box;
-    return !o.motion.moves() && p.x > b.lower.x - margin && p.x < b.upper.x + margin && p.y > b.lower.y - margin &&
+std::vector<Box> obstacles_at(const Case& the_case, double t_s) {
+  std::vector<Box> boxes;
+  for (const Obstacle& obstacle : the_case.obstacles)
+    if (const auto box = obstacle_at(obstacle, t_s, the_case.tank)) boxes.push_back(*box);
+  return boxes;
+}
+
+bool in_obstacle(const Vec3d& p, const std::vector<Box>& boxes, double margin) {
+  return std::any_of(boxes.begin(), boxes.end(), [&](const Box& b) {
+    return p.x > b.lower.x - margin && p.x < b.upper.x + margin && p.y > b.lower.y - margin &&
            p.y < b.upper.y + margin && p.z > b.lower.z && p.z < b.upper.z + margin;
   });
 }
@@ -87,23 +93,62 @@ std::uint32_t viridis(double share) {
   return colour;
 }
 
+namespace {
+
+/// Shares of the colour scale, particle by particle.
+class Shares {
+ public:
+  Shares(const ParticleSnapshot& snapshot, const Case& the_case, ParticleColour colour)
+      : snapshot_(snapshot), of_(colour.of) {
+    const double g_m_s2 = std::sqrt(dot(the_case.gravity_m_s2, the_case.gravity_m_s2));
+    pressure_Pa_ = the_case.density_kg_m3 * g_m_s2 * the_case.water_height_m * colour.largest;
+    speed_m_s_ = std::sqrt(g_m_s2 * the_case.water_height_m) * colour.largest;
+  }
+
+  double operator()(std::size_t i) const {
+    if (of_ == ParticleColour::Of::pressure)
+      return i < snapshot_.pressure_Pa.size() ? snapshot_.pressure_Pa[i] / pressure_Pa_ : 0;
+    if (i >= snapshot_.velocity_m_s.size()) return 0;
+    const auto& u = snapshot_.velocity_m_s[i];
+    return std::hypot(u.x, u.y, u.z) / speed_m_s_;
+  }
+
+ private:
+  const ParticleSnapshot& snapshot_;
+  ParticleColour::Of of_;
+  double pressure_Pa_ = 0;
+  double speed_m_s_ = 0;
+};
+
+}  // namespace
+
+std::optional<Box> obstacle_at(const Obstacle& obstacle, double t_s, const Box& tank) {
+  Box box = obstacle.box;
+  if (!obstacle.motion.moves()) return box;
+  box.lower += obstacle.motion.displacement_m(t_s);
+  box.upper += obstacle.motion.displacement_m(t_s);
+  box.upper.z = std::min(box.upper.z, tank.upper.z);
+  if (box.lower.z >= box.upper.z) return std::nullopt;
+  return box;
+}
+
 std::vector<SnapshotDisc> snapshot_discs(const ParticleSnapshot& snapshot, const Case& the_case, double l0_m,
-                                         double largest_p_star) {
-  const double g = std::sqrt(dot(the_case.gravity_m_s2, the_case.gravity_m_s2));
-  const double scale = the_case.density_kg_m3 * g * the_case.water_height_m * largest_p_star;
+                                         ParticleColour colour) {
+  const std::vector<Box> obstacles = obstacles_at(the_case, snapshot.time_s);
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < snapshot.position_m.size(); ++i)
-    if (i < snapshot.fluid_count || in_obstacle(position(snapshot, i), the_case, 0.5 * l0_m)) shown.push_back(i);
+    if (i < snapshot.fluid_count || in_obstacle(position(snapshot, i), obstacles, 0.5 * l0_m)) shown.push_back(i);
   std::sort(shown.begin(), shown.end(),
             [&](std::size_t a, std::size_t b) { return depth(position(snapshot, a)) < depth(position(snapshot, b)); });
   Cover cover(l0_m);
+  const Shares share(snapshot, the_case, colour);
   std::vector<SnapshotDisc> discs;
   for (std::size_t i : shown) {
     const auto [x, y] = project(position(snapshot, i));
     if (!cover.take(x, y)) continue;
-    const double pressure = i < snapshot.pressure_Pa.size() ? snapshot.pressure_Pa[i] : 0;
-    const bool dry = i >= snapshot.fluid_count && pressure <= 0;
-    discs.push_back({static_cast<float>(x), static_cast<float>(y), dry ? dry_wall : viridis(pressure / scale)});
+    const bool wall = i >= snapshot.fluid_count;
+    const bool grey = wall && (colour.of == ParticleColour::Of::velocity || share(i) <= 0);
+    discs.push_back({static_cast<float>(x), static_cast<float>(y), grey ? dry_wall : viridis(share(i))});
   }
   std::reverse(discs.begin(), discs.end());
   return discs;

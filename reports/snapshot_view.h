@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,10 +28,19 @@ double depth(const Vec3d& point);
 /// `share` outside 0..1 takes the end's colour.
 std::uint32_t viridis(double share);
 
-/// The fluid, coloured by P* = P / (rho g H_W) from 0 to `largest_p_star`, and the walls of obstacles (grey where dry,
-/// coloured where pressed), far to near. Discs that nearer ones hide wholly are left out.
+/// What colours particles: P* = P / (rho g H_W) or v* = |u| / sqrt(g H_W), from 0 to `largest`.
+struct ParticleColour {
+  enum class Of { pressure, velocity } of = Of::pressure;
+  double largest = 1;
+};
+
+/// The fluid and the walls of obstacles, far to near. Walls are grey, or coloured where pressed when pressure is shown.
+/// Discs that nearer ones hide wholly are left out.
 std::vector<SnapshotDisc> snapshot_discs(const ParticleSnapshot& snapshot, const Case& the_case, double l0_m,
-                                         double largest_p_star);
+                                         ParticleColour colour);
+
+/// Where an obstacle is at a time, cut off at the tank's open top; nullopt when it has left the tank.
+std::optional<Box> obstacle_at(const Obstacle& obstacle, double t_s, const Box& tank);
 
 /// Edges of a box in the drawing plane, as pairs of ends.
 std::vector<std::pair<std::pair<double, double>, std::pair<double, double>>> box_edges(const Box& box);

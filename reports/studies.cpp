@@ -83,13 +83,24 @@ namespace {
 template <class Measure>
 ResolutionQuantity quantity(const std::string& name, int decimals, const ResolutionSeries& series,
                             const std::string& sensor, Measure measure) {
-  ResolutionQuantity out{name, decimals, {}};
+  ResolutionQuantity out{name, decimals, {}, false};
   for (const AnalysedRun* run : series.runs) {
     const SensorReading* reading = run->primary(sensor);
     if (reading == nullptr) continue;
     const std::pair<std::optional<double>, std::optional<double>> m = measure(reading->comparison);
     if (m.first && m.second) out.points.push_back({run->record.l0_m, *m.first, *m.second});
   }
+  return out;
+}
+
+template <class Measure>
+ResolutionQuantity value(const std::string& name, int decimals, const ResolutionSeries& series,
+                         const std::string& sensor, Measure measure) {
+  ResolutionQuantity out = quantity(name, decimals, series, sensor, [&](const Comparison& c) {
+    const std::optional<double> v = measure(c);
+    return std::pair(v, v);
+  });
+  out.shows_value = true;
   return out;
 }
 
@@ -115,6 +126,12 @@ std::vector<ResolutionQuantity> resolution_quantities(const ReportData& data, co
   for (const std::string& sensor : data.sensors(SensorKind::wave_height))
     out.push_back(quantity(sensor + " RMSE / range [%]", 1, series, sensor,
                            [](const Comparison& c) { return std::pair(c.rmse, times(c.rmse_over_range, 100)); }));
+  for (const std::string& sensor : data.sensors(SensorKind::force)) {
+    out.push_back(value(sensor + " peak, 10 ms mean [N]", 2, series, sensor,
+                        [](const Comparison& c) { return c.smoothed_peak.simulated; }));
+    out.push_back(
+        value(sensor + " impulse [N s]", 3, series, sensor, [](const Comparison& c) { return c.impulse.simulated; }));
+  }
   std::erase_if(out, [](const ResolutionQuantity& q) { return q.points.empty(); });
   return out;
 }
@@ -132,6 +149,7 @@ std::optional<double> published_deviation(const ReportData& data, const std::str
 }
 
 std::optional<double> published_mean(const ReportData& data, const std::string& solver, std::optional<double> alpha) {
+  if (data.headline_sensors().empty()) return std::nullopt;
   double sum = 0;
   for (const std::string& sensor : data.headline_sensors()) {
     const auto deviation = published_deviation(data, sensor, solver, alpha);

@@ -1,12 +1,13 @@
 #include "reports/synthetic_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
 #include "solvers/snapshot.h"
 #include "validation/case.h"
 #include "validation/manifest.h"
-#include "validation/measured.h"
+#include "validation/measurements.h"
 #include "validation/series.h"
 
 namespace sluice::synthetic {
@@ -115,6 +116,64 @@ void write_run(const std::filesystem::path& directory, const MadeRun& run) {
   std::filesystem::create_directories(directory);
   write_probes(directory / "probes.csv", ProbeTable(directory / "probes.csv", names, t, columns));
   write_manifest(directory, manifest_of(run, c));
+}
+
+namespace {
+
+double pulse_N(double t) {
+  return std::max(0.0, 10 * (1 - std::abs(t - 0.6) / 0.1));
+}
+
+std::vector<double> force_curve(const MeasuredSeries* measured, const std::vector<double>& t, double scale,
+                                const MadeForceRun& run, double noise) {
+  std::vector<double> values;
+  for (double time : t) {
+    const double at = time - run.shift_s;
+    values.push_back(scale * (measured != nullptr ? measured_at(*measured, at) : pulse_N(at)) +
+                     noise * std::sin(2 * pi * 90 * time));
+  }
+  return values;
+}
+
+json force_manifest(const MadeForceRun& run, const Case& c, double t_end_s) {
+  json manifest = manifest_of({}, c);
+  manifest.update({{"case", run.case_name},
+                   {"solver", run.solver},
+                   {"walls", run.walls},
+                   {"l0_m", run.l0_m},
+                   {"alpha", run.alpha},
+                   {"t_end_s", t_end_s},
+                   {"time_s", t_end_s},
+                   {"lost", {{"through_walls", 0}, {"over_top", 0}}}});
+  if (run.solver == "mps") manifest.erase("alpha");
+  for (const CaseSensor& sensor : c.sensors)
+    manifest["sensors"][sensor.name] = {{"primary", primary_model(c, sensor, run.solver, run.walls)}};
+  return manifest;
+}
+
+}  // namespace
+
+void write_force_run(const std::filesystem::path& directory, const MadeForceRun& run) {
+  const Case c = load_case(run.case_name);
+  const Measurements measured = Measurements::load(c);
+  const std::vector<double> t = times(c.t_end_s);
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+  for (const CaseSensor& sensor : c.sensors) {
+    const std::string primary = primary_model(c, sensor, run.solver, run.walls);
+    const double noise = sensor.kind == SensorKind::force ? run.noise_N : 0;
+    for (const std::string& model : models_of(sensor.kind)) {
+      const double scale = model == primary ? run.scale : run.second_scale;
+      columns.push_back(force_curve(measured.find(sensor.name), t, scale, run, noise));
+      names.push_back(probe_column(sensor, model));
+      if (model != primary) continue;
+      columns.push_back(columns.back());
+      names.push_back(probe_column(sensor));
+    }
+  }
+  std::filesystem::create_directories(directory);
+  write_probes(directory / "probes.csv", ProbeTable(directory / "probes.csv", names, t, columns));
+  write_manifest(directory, force_manifest(run, c, c.t_end_s));
 }
 
 void write_external_run(const std::filesystem::path& directory, double scale) {

@@ -25,6 +25,21 @@ struct MadeRun {
 /// Writes run.json and probes.csv of a run of the case `kleefsman` made from its measured digest.
 void write_run(const std::filesystem::path& directory, const MadeRun& run);
 
+/// A run of a case with forces and velocity probes, made from what was measured; where nothing was, from a pulse of 10
+/// N between 0.5 and 0.7 s.
+struct MadeForceRun {
+  std::string case_name = "column";
+  std::string solver = "wcsph";
+  std::string walls = "extrapolated";
+  double l0_m = 0.0125;
+  double alpha = 0.01;
+  double scale = 1.0;         ///< of the primary route and of velocities
+  double second_scale = 0.9;  ///< of the other route
+  double shift_s = 0.0;
+  double noise_N = 0.0;  ///< a fixed 90 Hz tone on forces
+};
+void write_force_run(const std::filesystem::path& directory, const MadeForceRun& run);
+
 /// Another code's delivery: three lines of run.json, plain columns P1 and H2 only.
 void write_external_run(const std::filesystem::path& directory, double scale);
 

@@ -34,6 +34,13 @@ Table early_runs_table(const ReportData& data);
 /// Arrival, peaks, errors, lag, band share and noise of every sensor of a kind. `all_models` false: primary readings.
 Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_models);
 
+/// Peak, arrival and rise of every force, by both routes.
+Table force_peaks_table(const ReportData& data);
+/// Impulses of one force over its windows, errors, band share and noise, by both routes.
+Table force_impulses_table(const ReportData& data, const std::string& sensor);
+/// Peak, impulse and noise of every force against the artificial viscosity.
+Table force_alpha_table(const ReportData& data);
+
 /// How much fluid the kernel probe saw: share of the time after the measured arrival in which it could read at all.
 Table kernel_support_table(const ReportData& data);
 

@@ -18,7 +18,7 @@ std::optional<double> percent(std::optional<double> share) {
 
 std::optional<double> measured_impulse(const ReportData& data, const std::string& sensor) {
   const MeasuredSeries* series = data.measured_series(sensor);
-  return series == nullptr ? std::nullopt : impulse(*series, data.window);
+  return series == nullptr ? std::nullopt : impulse(*series, data.window_of(sensor));
 }
 
 const PublishedImpulse* find_published(const Published& published, const PublishedImpulse& like,

@@ -120,10 +120,10 @@ void add_published_notes(Table& table, const Published& published) {
                     "Processing times of different machines do not compare as they are: see Provenance for ours.",
                     published.cpu));
   for (const PublishedRun& run : published.runs) {
+    const std::string name = fmt::format("The paper's {}, l0 = {:g} mm", published_name(run), 1000 * run.l0_m);
     if (run.gpu_time_s)
-      table.notes.push_back(fmt::format("The paper's {} on a GPU ({}): {}.", published_name(run), published.gpu,
-                                        duration(*run.gpu_time_s)));
-    if (!run.remark.empty()) table.notes.push_back(fmt::format("The paper's {}: {}.", published_name(run), run.remark));
+      table.notes.push_back(fmt::format("{}, on a GPU ({}): {}.", name, published.gpu, duration(*run.gpu_time_s)));
+    if (!run.remark.empty()) table.notes.push_back(fmt::format("{}: {}.", name, run.remark));
   }
 }
 
@@ -138,9 +138,10 @@ TableCell support_cell(const RunRecord& record) {
 
 Table parameters_table(const ReportData& data) {
   Table table;
-  table.name = "table1_parameters";
-  table.caption = "Numerical parameters and processing time, after the paper's Table " +
-                  std::to_string(std::max(1, data.the_case.published.runs_table));
+  const int number_in_paper = data.the_case.published.runs_table;
+  table.name = number_in_paper > 0 ? fmt::format("table{}_parameters", number_in_paper) : "parameters";
+  table.caption = "Numerical parameters and processing time";
+  if (number_in_paper > 0) table.caption += fmt::format(", after the paper's Table {}", number_in_paper);
   table.columns = {{"Run", "run", false},
                    {"Equivalent viscosity [m²/s]", "equivalent_viscosity_m2_s"},
                    {"α", "alpha"},
@@ -261,11 +262,12 @@ Table provenance_table(const ReportData& data) {
                time_cell(r.number("cpu_time_s")), text_cell(r.text("case_hash")), text_cell(r.text("data_hash")),
                whole(r.number("lost.over_top")), through});
   }
+  std::string measured;
+  for (const MeasuredFile& file : data.measured.files())
+    if (file.present()) measured += fmt::format(", {} ({})", file.path.generic_string(), file.hash);
   table.notes.push_back(fmt::format(
-      "This report read case file {} ({}) and {}. A run whose hashes differ was made with other versions of them.",
-      data.the_case.name, data.the_case.hash,
-      data.measured ? data.the_case.measured.generic_string() + " (" + data.measured->hash() + ")"
-                    : "no measured data"));
+      "This report read case file {} ({}){}. A run whose hashes differ was made with other versions of them.",
+      data.the_case.name, data.the_case.hash, measured.empty() ? " and no measured data" : measured));
   return table;
 }
 

@@ -1,6 +1,7 @@
 // Tables of every metric at every sensor.
 #include <fmt/format.h>
 
+#include "reports/quantity.h"
 #include "reports/tables.h"
 #include "reports/text.h"
 #include "validation/sensors.h"
@@ -14,13 +15,9 @@ std::optional<double> scaled(std::optional<double> value, double factor) {
   return value;
 }
 
-int decimals_of(SensorKind kind) {
-  return kind == SensorKind::pressure ? 0 : 3;
-}
-
 std::vector<TableColumn> metric_columns(SensorKind kind) {
   const std::string unit(unit_of(kind));
-  auto with_unit = [&](const std::string& name) { return name + " [" + unit + "]"; };
+  auto with_unit = [&](const std::string& name) { return fmt::format("{} [{}]", name, quantity_of(kind).unit); };
   return {{"Sensor and run", "run", false},
           {"Model", "model", false},
           {"Arrival [s]", "arrival_s"},
@@ -40,7 +37,7 @@ std::vector<TableColumn> metric_columns(SensorKind kind) {
 }
 
 void add_measured(Table& table, SensorKind kind, const Comparison& c) {
-  const int d = decimals_of(kind);
+  const int d = quantity_of(kind).decimals;
   const TableCell none = not_applicable();
   table.add({word("Experiment", Tone::strong), none, number(c.arrival_s.measured, 3), none, number(c.peak.measured, d),
              number(c.peak_time_s.measured, 3), none, number(c.smoothed_peak.measured, d),
@@ -50,7 +47,7 @@ void add_measured(Table& table, SensorKind kind, const Comparison& c) {
 
 void add_reading(Table& table, const AnalysedRun& run, const SensorReading& reading) {
   const Comparison& c = reading.comparison;
-  const int d = decimals_of(reading.kind);
+  const int d = quantity_of(reading.kind).decimals;
   table.add({word(run.label), word(reading.remarked_model()), number(c.arrival_s.simulated, 3),
              signed_number(scaled(c.arrival_s.difference(), 1000), 0), number(c.peak.simulated, d),
              number(c.peak_time_s.simulated, 3), signed_number(scaled(c.peak.deviation(), 100), 1),
@@ -70,14 +67,16 @@ void add_missing(Table& table, const AnalysedRun& run) {
 
 Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_models) {
   Table table;
-  const std::string stem = kind == SensorKind::pressure ? "pressure_metrics" : "wave_metrics";
-  table.name = stem + (all_models ? "_all_models" : "");
-  table.caption = fmt::format("{} over {} to {} s, {}", kind == SensorKind::pressure ? "Pressures" : "Wave heights",
-                              shortest(data.window.begin_s), shortest(data.window.end_s),
-                              all_models ? "every sensor model" : "primary readings");
+  table.name = quantity_of(kind).stem + "_metrics" + (all_models ? "_all_models" : "");
+  const std::vector<std::string> sensors = data.sensors(kind);
+  const Window window = sensors.empty() ? data.window : data.window_of(sensors.front());
+  table.caption = fmt::format("{} over {} to {} s, {}", quantity_of(kind).title, shortest(window.begin_s),
+                              shortest(window.end_s), all_models ? "every sensor model" : "primary readings");
   table.columns = metric_columns(kind);
-  for (const std::string& sensor : data.sensors(kind)) {
+  for (const std::string& sensor : sensors) {
     table.add_group(sensor);
+    if (const std::string remark = data.measured_remark(sensor); !remark.empty())
+      table.notes.push_back(sensor + ": " + remark);
     bool measured_shown = false;
     for (const AnalysedRun& run : data.runs) {
       const auto readings = run.of(sensor);

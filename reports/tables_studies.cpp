@@ -101,7 +101,8 @@ TableCell convergence_cell(const std::vector<ResolutionPoint>& points) {
 Table resolution_table(const ReportData& data) {
   Table table;
   table.name = "resolution";
-  table.caption = "Errors against the particle distance, primary readings";
+  table.caption = data.has(SensorKind::force) ? "Errors and forces against the particle distance, primary readings"
+                                              : "Errors against the particle distance, primary readings";
   table.columns = {{"Quantity", "quantity", false}};
   std::vector<double> distances;
   for (const ResolutionSeries& series : resolution_series(data))
@@ -119,7 +120,9 @@ Table resolution_table(const ReportData& data) {
       for (double l0 : distances) {
         const auto found = std::find_if(quantity.points.begin(), quantity.points.end(),
                                         [&](const ResolutionPoint& p) { return p.l0_m == l0; });
-        cells.push_back(found == quantity.points.end() ? missing() : signed_number(found->error, quantity.decimals));
+        cells.push_back(found == quantity.points.end() ? missing()
+                        : quantity.shows_value         ? number(found->value, quantity.decimals)
+                                                       : signed_number(found->error, quantity.decimals));
       }
       cells.push_back(convergence_cell(quantity.points));
       table.add(std::move(cells));
@@ -145,7 +148,7 @@ std::optional<double> early_metric(const ReportData& data, const AnalysedRun& ru
   const SensorReading* reading = run.primary(sensor);
   const MeasuredSeries* measured = data.measured_series(sensor);
   if (reading == nullptr || measured == nullptr) return std::nullopt;
-  if (reading->kind == SensorKind::pressure)
+  if (reading->kind == SensorKind::pressure || reading->kind == SensorKind::force)
     return relative_deviation(impulse(reading->series, window), impulse(*measured, window));
   const auto error = rmse(reading->series, *measured, window);
   const auto spread = range(*measured, data.window);

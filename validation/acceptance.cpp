@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 
 namespace sluice {
 namespace {
@@ -21,14 +22,17 @@ const AcceptanceMetric& metric_of(std::string_view name) {
   throw std::invalid_argument(fmt::format("unknown acceptance metric `{}`", name));
 }
 
-Window window_of(const Case& c) {
+// Over which a row is evaluated: its own window, its sensor's, or the case's.
+Window window_of(const Case& c, const AcceptanceRow& row) {
+  if (row.window) return {row.window->start_s, row.window->end_s};
+  if (const CaseSensor* sensor = c.find_sensor(row.sensor)) return comparison_window(c, *sensor);
   return {c.window.start_s, c.window.end_s};
 }
 
-// Comparisons are costly (the lag's search most of all): one a column, shared by its rows.
+// Comparisons are costly (the lag's search most of all): one a column and window, shared by its rows.
 class Comparisons {
  public:
-  Comparisons(const Case& c, const RunRecord& run, const MeasuredData* measured)
+  Comparisons(const Case& c, const RunRecord& run, const Measurements& measured)
       : case_(c), run_(run), measured_(measured) {}
 
   // nullptr with a reason when there is nothing to compare.
@@ -40,42 +44,43 @@ class Comparisons {
       reason = "no column " + column;
       return nullptr;
     }
-    if (measured_ == nullptr || !measured_->has(sensor->measured)) {
+    const MeasuredSeries* measured = measured_.find(row.sensor);
+    if (measured == nullptr) {
       reason = "no measurement of " + row.sensor;
       return nullptr;
     }
-    auto found = by_column_.find(column);
-    if (found == by_column_.end())
-      found = by_column_
-                  .emplace(column,
-                           compare(run_.probes.column(column), measured_->series(sensor->measured), window_of(case_)))
-                  .first;
+    const Window window = window_of(case_, row);
+    const Key key{column, window.begin_s, window.end_s};
+    auto found = done_.find(key);
+    if (found == done_.end())
+      found =
+          done_.emplace(key, compare(run_.probes.column(column), *measured, window, comparison_options(*sensor))).first;
     return &found->second;
   }
 
  private:
   const Case& case_;
   const RunRecord& run_;
-  const MeasuredData* measured_;
-  std::map<std::string, Comparison> by_column_;
+  const Measurements& measured_;
+  using Key = std::tuple<std::string, double, double>;
+  std::map<Key, Comparison> done_;
 };
 
 // A run that stopped early proves nothing, however good its counts look.
-std::string why_unfinished(const Case& c, const RunRecord& run) {
+std::string why_unfinished(const Case& c, const RunRecord& run, Window window) {
   if (const std::string status = run.status(); !status.empty() && status != "finished") return "the run is " + status;
   const double reached_s = run.probes.rows() == 0 ? 0 : run.probes.times_s().back();
-  if (reached_s + 2 / c.output_rate_Hz < c.window.end_s)
-    return fmt::format("the run ends at {:.3g} s, the window at {:g} s", reached_s, c.window.end_s);
+  if (reached_s + 2 / c.output_rate_Hz < window.end_s)
+    return fmt::format("the run ends at {:.3g} s, the window at {:g} s", reached_s, window.end_s);
   return "";
 }
 
-AcceptanceCheck check_row(const AcceptanceRow& row, const RunRecord& run, Comparisons& comparisons,
-                          const std::string& unfinished) {
+AcceptanceCheck check_row(const Case& c, const AcceptanceRow& row, const RunRecord& run, Comparisons& comparisons) {
   AcceptanceCheck check{row, AcceptanceVerdict::not_applicable, std::nullopt, ""};
   if (!applies(row, run)) return check;
   check.verdict = AcceptanceVerdict::missing;
-  check.reason = unfinished;
-  if (!unfinished.empty()) return check;
+  check.reason = why_unfinished(c, run, window_of(c, row));
+  if (!check.reason.empty()) return check;
   if (metric_of(row.metric).needs_sensor) {
     if (const Comparison* comparison = comparisons.find(row, check.reason)) {
       check.value = sensor_metric(row.metric, *comparison);
@@ -118,6 +123,7 @@ bool applies(const AcceptanceRow& row, const RunRecord& run) {
 std::optional<double> sensor_metric(std::string_view metric, const Comparison& c) {
   if (metric == "impulse_deviation") return c.impulse.deviation();
   if (metric == "arrival_difference_s") return c.arrival_s.difference();
+  if (metric == "half_peak_time_difference_s") return c.half_peak_s.difference();
   if (metric == "peak_deviation") return c.peak.deviation();
   if (metric == "smoothed_peak_deviation") return c.smoothed_peak.deviation();
   if (metric == "peak_time_difference_s") return c.peak_time_s.difference();
@@ -138,11 +144,10 @@ std::optional<double> run_metric(std::string_view metric, const RunRecord& run) 
   return *lost / *all;
 }
 
-std::vector<AcceptanceCheck> check_acceptance(const Case& c, const RunRecord& run, const MeasuredData* measured) {
+std::vector<AcceptanceCheck> check_acceptance(const Case& c, const RunRecord& run, const Measurements& measured) {
   Comparisons comparisons(c, run, measured);
-  const std::string unfinished = why_unfinished(c, run);
   std::vector<AcceptanceCheck> checks;
-  for (const AcceptanceRow& row : c.acceptance) checks.push_back(check_row(row, run, comparisons, unfinished));
+  for (const AcceptanceRow& row : c.acceptance) checks.push_back(check_row(c, row, run, comparisons));
   return checks;
 }
 
@@ -160,6 +165,7 @@ std::string acceptance_name(const AcceptanceRow& row) {
   std::string name = row.metric;
   if (!row.sensor.empty()) name += " " + row.sensor;
   if (!row.model.empty()) name += " " + row.model;
+  if (row.window) name += fmt::format(" {:g} .. {:g} s", row.window->start_s, row.window->end_s);
   return name;
 }
 

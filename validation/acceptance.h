@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "validation/case.h"
-#include "validation/measured.h"
+#include "validation/measurements.h"
 #include "validation/metrics.h"
 #include "validation/run_directory.h"
 
@@ -36,13 +36,15 @@ std::optional<double> sensor_metric(std::string_view metric, const Comparison& c
 /// A whole-run metric's value; nullopt when the manifest lacks it. Throws std::invalid_argument for an unknown metric.
 std::optional<double> run_metric(std::string_view metric, const RunRecord& run);
 
-/// Every row of the case, in its order. `measured` may be nullptr: then sensor rows are missing. Bounds are inclusive.
-std::vector<AcceptanceCheck> check_acceptance(const Case& c, const RunRecord& run, const MeasuredData* measured);
+/// Every row of the case, in its order. Rows of sensors that `measured` has no series for are missing. Bounds are
+/// inclusive.
+std::vector<AcceptanceCheck> check_acceptance(const Case& c, const RunRecord& run, const Measurements& measured);
 
 /// True when at least one row applies and every applicable row passes.
 bool all_passed(const std::vector<AcceptanceCheck>& checks);
 
-/// "impulse_deviation P1 wall", and a value or bound for people ("+4.0 %", "+15 ms", "3").
+/// "impulse_deviation P1 wall" or "impulse_deviation F 0.3 .. 1.3 s", and a value or bound for people ("+4.0 %", "+15
+/// ms", "3").
 std::string acceptance_name(const AcceptanceRow& row);
 std::string acceptance_value_text(const AcceptanceRow& row, double value);
 std::string acceptance_band_text(const AcceptanceRow& row);

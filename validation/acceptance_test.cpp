@@ -62,12 +62,12 @@ class AcceptanceTest : public testing::Test {
                 (std::string("sluice-acceptance-") + testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(directory);
     fs::create_directories(directory);
-    measured = load_measured();
+    write_digest();
     write_run(1.0, 0.0);
   }
   ~AcceptanceTest() override { fs::remove_all(directory); }
 
-  MeasuredData load_measured() const {
+  void write_digest() const {
     std::ofstream out(directory / "digest.csv");
     out << "t_s,P1_mean_Pa,P1_min_Pa,P1_max_Pa\n";
     for (int k = 0; k < 200; ++k) {
@@ -75,8 +75,6 @@ class AcceptanceTest : public testing::Test {
       const double low = std::min(pulse(t - 0.0025), pulse(t + 0.0025));
       out << fmt::format("{:.4f},{},{},{}\n", t, pulse(t), low, std::max(pulse(t - 0.0025), pulse(t + 0.0025)));
     }
-    out.close();
-    return MeasuredData::load(directory / "digest.csv");
   }
 
   // The measured pulse, scaled, and late by a lag.
@@ -100,13 +98,17 @@ class AcceptanceTest : public testing::Test {
     return read_run(directory);
   }
 
-  AcceptanceCheck check(const std::string& row, const nlohmann::json& changes = nlohmann::json::object()) const {
-    const Case c = parse_case(case_text("  { " + row + " },\n"), "pulse.toml");
-    return check_acceptance(c, record(changes), &measured).at(0);
+  AcceptanceCheck check(const std::string& row, const nlohmann::json& changes = nlohmann::json::object(),
+                        const std::string& sensor_keys = "") const {
+    std::string text = case_text("  { " + row + " },\n");
+    const std::string end = R"(measured = "P1")";
+    text.insert(text.find(end) + end.size(), sensor_keys);
+    Case c = parse_case(text, "pulse.toml");
+    c.measured = directory / c.measured;
+    return check_acceptance(c, record(changes), Measurements::load(c)).at(0);
   }
 
   fs::path directory;
-  MeasuredData measured;
 };
 
 TEST_F(AcceptanceTest, ImpulseOfAScaledPulseDeviatesByTheScale) {
@@ -123,6 +125,38 @@ TEST_F(AcceptanceTest, ArrivalOfALatePulseDiffersByTheLag) {
   EXPECT_NEAR(check(row + "0.035").value.value(), 0.03, 2e-3);
   EXPECT_EQ(check(row + "0.035").verdict, AcceptanceVerdict::pass);
   EXPECT_EQ(check(row + "0.020").verdict, AcceptanceVerdict::fail);
+}
+
+TEST_F(AcceptanceTest, TimeOfHalfThePeakIsThatOfTheMeasuredPeakInBoth) {
+  write_run(2.0, 0.03);  // half of the measured peak is a quarter of its own: 0.25 of 0.2 s after the start, not 0.5
+  const std::string row = R"(metric = "half_peak_time_difference_s", sensor = "P1", within = 0.03)";
+  EXPECT_NEAR(check(row).value.value(), 0.03 - 0.05, 2e-3);
+}
+
+TEST_F(AcceptanceTest, ARowsOwnWindowIsTheOneItIsEvaluatedOver) {
+  const std::string row = R"(metric = "impulse_deviation", sensor = "P1", within = 0.1)";
+  write_run(1.0, 0.1);
+  EXPECT_NEAR(check(row).value.value(), 0, 1e-3) << "late, but within the case's window";
+  const AcceptanceCheck early = check(row + ", window_s = [0.0, 0.4]");
+  EXPECT_NEAR(early.value.value(), -0.75, 0.01) << "the half of the rise";
+  EXPECT_THAT(acceptance_name(early.row), HasSubstr("P1 0 .. 0.4 s"));
+  write_run(1.0, 0, 0.5);
+  EXPECT_EQ(check(row + ", window_s = [0.0, 0.4]").verdict, AcceptanceVerdict::pass) << "the run reaches its end";
+  EXPECT_EQ(check(row).verdict, AcceptanceVerdict::missing);
+}
+
+TEST_F(AcceptanceTest, ASensorsOwnWindowAndShiftCount) {
+  write_run(1.0, 0.1, 0.9);
+  const std::string row = R"(metric = "rmse_over_range", sensor = "P1", upper = 0.02)";
+  EXPECT_EQ(check(row, nlohmann::json::object(), ", window_s = [0.1, 0.9]").verdict, AcceptanceVerdict::fail);
+  EXPECT_EQ(check(row, nlohmann::json::object(), ", window_s = [0.1, 0.9], measured_shift_s = 0.1").verdict,
+            AcceptanceVerdict::pass);
+}
+
+TEST_F(AcceptanceTest, TheShareInsideABandNeedsARealBand) {
+  const std::string row = R"(metric = "share_inside_band", sensor = "P1", lower = 0.9)";
+  EXPECT_GT(check(row, nlohmann::json::object(), ", measured_is_band = true").value.value(), 0.99);
+  EXPECT_THROW(check(row), CaseError) << "the spread in the bins of one recording is none";
 }
 
 TEST_F(AcceptanceTest, PeaksKeepTheirSign) {
@@ -166,7 +200,7 @@ TEST_F(AcceptanceTest, WhatIsMissingDoesNotPass) {
   const nlohmann::json silent{{"lost", nullptr}};
   EXPECT_EQ(check(R"(metric = "lost_through_walls", upper = 0)", silent).verdict, AcceptanceVerdict::missing);
   const Case c = parse_case(case_text(R"(  { metric = "peak_deviation", sensor = "P1", within = 9 },)"), "pulse.toml");
-  const auto checks = check_acceptance(c, record(), nullptr);
+  const auto checks = check_acceptance(c, record(), Measurements::load(c));
   EXPECT_EQ(checks.at(0).verdict, AcceptanceVerdict::missing);
   EXPECT_FALSE(all_passed(checks));
 }

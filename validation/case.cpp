@@ -68,6 +68,7 @@ const std::vector<AcceptanceMetric>& acceptance_metrics() {
   static const std::vector<AcceptanceMetric> metrics{
       {"impulse_deviation", "1", true, "impulse over the window, (simulated - measured) / measured"},
       {"arrival_difference_s", "s", true, "arrival at 10 % of the measured peak, simulated - measured"},
+      {"half_peak_time_difference_s", "s", true, "first time at half of the measured peak, simulated - measured"},
       {"peak_deviation", "1", true, "largest value, (simulated - measured) / measured"},
       {"smoothed_peak_deviation", "1", true, "the same after a 10 ms running mean of both series"},
       {"peak_time_difference_s", "s", true, "time of the largest value, simulated - measured"},
@@ -92,6 +93,12 @@ const SolverOption* Case::find_solver(std::string_view solver_name) const {
 }
 const Tier* Case::find_tier(std::string_view tier_name) const {
   return find_named(tiers, tier_name);
+}
+
+const std::filesystem::path& Case::measured_file(const CaseSensor& sensor) const {
+  static const std::filesystem::path none;
+  if (sensor.measured.empty()) return none;
+  return sensor.measured_in.empty() ? measured : sensor.measured_in;
 }
 
 const WallOption* find_walls(const SolverOption& solver, std::string_view walls) {

@@ -33,6 +33,12 @@ enum class SensorKind { pressure, wave_height, force, velocity };
 
 std::string_view to_string(SensorKind kind);
 
+/// A closed interval of time [s].
+struct TimeWindow {
+  double start_s = 0;
+  double end_s = 0;
+};
+
 /// One probe of the experiment.
 struct CaseSensor {
   std::string name;  ///< such as "P1"
@@ -41,9 +47,14 @@ struct CaseSensor {
   /// Unit vector. Pressure and wave height: into the fluid, away from the wall, or up the probe's line; force and
   /// velocity: the direction of the component that is read.
   Vec3d normal;
-  std::string measured;  ///< name of the measured series in the digest; empty where nothing was measured
-  std::string body{};    ///< force: name of an obstacle, or "tank"
-  BodyFace face{};       ///< force: one face of the body, or the whole body, net of its far side
+  std::string measured;                 ///< name of the measured series in the digest; empty where nothing was measured
+  std::string body{};                   ///< force: name of an obstacle, or "tank"
+  BodyFace face{};                      ///< force: one face of the body, or the whole body, net of its far side
+  std::filesystem::path measured_in{};  ///< its digest, relative to the source root; empty: the case's
+  double measured_shift_s = 0;          ///< added to the measured times: what the sources' clock lacks
+  bool measured_is_band = false;        ///< the bins' minimum to maximum is the measurement's own scatter
+  std::optional<TimeWindow> window{};   ///< of its metrics, where it is not the case's
+  std::vector<TimeWindow> impulses_s{};  ///< spans over which reports give its impulse beside that over the window
 };
 
 /// "Pa", "m", "N" or "m_s".
@@ -51,12 +62,6 @@ std::string_view unit_of(SensorKind kind);
 
 /// The header of a column in probes.csv: `<sensor>[_<model>]_<unit>`; without a model the primary reading.
 std::string probe_column(const CaseSensor& sensor, std::string_view model = "");
-
-/// A closed interval of time [s].
-struct TimeWindow {
-  double start_s = 0;
-  double end_s = 0;
-};
 
 /// One wall model of a solver: how many particle layers it needs, and which sensor models are the primary readings.
 struct WallOption {
@@ -104,6 +109,7 @@ struct AcceptanceRow {
   std::optional<double> alpha;  ///< ... and to this artificial viscosity only, when given
   double lower = 0;
   double upper = 0;
+  std::optional<TimeWindow> window{};  ///< of this comparison, where it is not the sensor's
   std::string remark;
   int line = 0;  ///< in the case file
 };
@@ -156,6 +162,8 @@ struct Published {
   int runs_table = 0;
   std::vector<PublishedFigure> figures;
   int snapshots_figure = 0;
+  std::string snapshots_colour = "pressure";  ///< of particles in reports: "pressure" or "velocity", dimensionless
+  int geometry_figure = 0;
   std::string cpu;  ///< the machine of the printed CPU times
   std::string gpu;
 };
@@ -194,6 +202,11 @@ struct Case {
   const CaseSensor* find_sensor(std::string_view sensor_name) const;
   const SolverOption* find_solver(std::string_view solver_name) const;
   const Tier* find_tier(std::string_view tier_name) const;
+
+  /// Over which a sensor is compared: its own or the case's.
+  TimeWindow window_of(const CaseSensor& sensor) const { return sensor.window.value_or(window); }
+  /// The digest of a sensor's measured series; empty when nothing was measured.
+  const std::filesystem::path& measured_file(const CaseSensor& sensor) const;
 };
 
 /// nullptr when the solver has no wall model of that name.

@@ -172,6 +172,18 @@ void parse_force(TomlReader& reader, CaseSensor& sensor, const Case& c) {
   sensor.normal = parse_unit_vector(reader, "direction");
 }
 
+void parse_measured(TomlReader& reader, CaseSensor& sensor) {
+  sensor.measured = reader.text_or("measured", "");
+  sensor.measured_in = reader.text_or("measured_in", "");
+  sensor.measured_shift_s = reader.number_or("measured_shift_s", 0);
+  sensor.measured_is_band = reader.flag_or("measured_is_band", false);
+  for (const char* key : {"measured_in", "measured_shift_s", "measured_is_band"})
+    if (sensor.measured.empty() && reader.has(key))
+      reader.fail(key, "says how a series was measured, but `measured` names none (add it, or leave this out)");
+  if (reader.has("window_s")) sensor.window = case_parse::parse_window(reader, "window_s");
+  sensor.impulses_s = case_parse::parse_windows(reader, "impulses_s");
+}
+
 CaseSensor parse_sensor(TomlReader& reader, const Case& c) {
   CaseSensor sensor;
   sensor.name = reader.text("name");
@@ -190,16 +202,14 @@ CaseSensor parse_sensor(TomlReader& reader, const Case& c) {
     check_sensor_place(reader, sensor, c);
     sensor.normal = parse_unit_vector(reader, sensor.kind == SensorKind::velocity ? "direction" : "normal");
   }
-  sensor.measured = reader.text_or("measured", "");
+  parse_measured(reader, sensor);
   reader.finish();
   return sensor;
 }
 
 void parse_times(TomlReader& root, Case& c) {
   c.t_end_s = root.positive_number("t_end_s");
-  std::tie(c.window.start_s, c.window.end_s) = root.range("window_s");
-  if (c.window.start_s < 0 || c.window.start_s == c.window.end_s)
-    root.fail("window_s", "must be a span of time that does not start before 0");
+  c.window = case_parse::parse_window(root, "window_s");
   c.output_rate_Hz = root.positive_number("output_rate_Hz");
   c.snapshot_times_s = root.numbers("snapshot_times_s");
   for (double t : c.snapshot_times_s)
@@ -270,7 +280,7 @@ Case parse_root(TomlReader root) {
   for (TomlReader& sensor : root.tables("sensors")) c.sensors.push_back(parse_sensor(sensor, c));
   c.measured = root.text_or("measured", "");
   for (const CaseSensor& sensor : c.sensors)
-    if (!sensor.measured.empty() && c.measured.empty())
+    if (!sensor.measured.empty() && c.measured_file(sensor).empty())
       root.fail("measured",
                 fmt::format("is missing, but sensor {} has a measured series (name the digest's file)", sensor.name));
   parse_times(root, c);

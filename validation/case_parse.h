@@ -20,6 +20,10 @@ std::vector<std::string> names_of(const std::vector<T>& items) {
 /// The key's text, which must be one of the choices.
 std::string one_of(TomlReader& reader, std::string_view key, const std::vector<std::string>& choices);
 
+/// A span of time, or several, that do not start before 0; none where the key is absent.
+TimeWindow parse_window(TomlReader& reader, std::string_view key);
+std::vector<TimeWindow> parse_windows(TomlReader& reader, std::string_view key);
+
 /// Appends the rows of one [[acceptance]] group; the case's sensors and solvers must be there already.
 void parse_acceptance_group(TomlReader& reader, Case& c);
 

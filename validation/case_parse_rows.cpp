@@ -51,6 +51,11 @@ AcceptanceRow parse_acceptance_row(TomlReader& reader, AcceptanceRow row, const 
     const CaseSensor& sensor = *c.find_sensor(row.sensor);
     check_row_model(reader, row, sensor.kind);
     if (sensor.measured.empty()) reader.fail("sensor", "has no measured series (there is nothing to compare with)");
+    if (reader.has("window_s")) row.window = parse_window(reader, "window_s");
+    if (row.metric == "share_inside_band" && !sensor.measured_is_band)
+      reader.fail("metric", fmt::format("needs a band, and that of {} is the spread within the bins of one recording "
+                                        "(say measured_is_band = true at the sensor if it is a real one)",
+                                        row.sensor));
   }
   row.remark = reader.text_or("remark", "");
   parse_band(reader, row);
@@ -98,6 +103,24 @@ std::string one_of(TomlReader& reader, std::string_view key, const std::vector<s
   return value;
 }
 
+TimeWindow parse_window(TomlReader& reader, std::string_view key) {
+  TimeWindow window;
+  std::tie(window.start_s, window.end_s) = reader.range(key);
+  if (window.start_s < 0 || window.start_s == window.end_s)
+    reader.fail(key, "must be a span of time that does not start before 0");
+  return window;
+}
+
+std::vector<TimeWindow> parse_windows(TomlReader& reader, std::string_view key) {
+  std::vector<TimeWindow> windows;
+  if (!reader.has(key)) return windows;
+  for (const auto& [start_s, end_s] : reader.ranges(key)) windows.push_back({start_s, end_s});
+  for (const TimeWindow& window : windows)
+    if (window.start_s < 0 || window.start_s == window.end_s)
+      reader.fail(key, "must hold spans of time that do not start before 0, such as [[0.3, 1.3]]");
+  return windows;
+}
+
 void parse_acceptance_group(TomlReader& reader, Case& c) {
   AcceptanceRow common;
   common.solver = one_of(reader, "solver", names_of(c.solvers));
@@ -116,6 +139,8 @@ void parse_published(TomlReader reader, Case& c) {
   if (reader.has("impulses_table")) p.impulses_table = reader.integer("impulses_table");
   if (reader.has("runs_table")) p.runs_table = reader.integer("runs_table");
   if (reader.has("snapshots_figure")) p.snapshots_figure = reader.integer("snapshots_figure");
+  if (reader.has("snapshots_colour")) p.snapshots_colour = one_of(reader, "snapshots_colour", {"pressure", "velocity"});
+  if (reader.has("geometry_figure")) p.geometry_figure = reader.integer("geometry_figure");
   for (TomlReader& impulse : reader.tables("impulses", true)) p.impulses.push_back(parse_published_impulse(impulse, c));
   for (TomlReader& run : reader.tables("runs", true)) p.runs.push_back(parse_published_run(run));
   for (TomlReader& figure : reader.tables("figures", true)) {

@@ -235,6 +235,29 @@ TEST(Case, BandsMayBeOneSided) {
   EXPECT_LT(c.acceptance[0].lower, -1e300);
 }
 
+TEST(Case, ASensorSaysHowItsSeriesWasMeasuredAndWhereItIsCompared) {
+  const std::string key = "measured = \"P1\"";
+  const Case c =
+      parse_case(with(small_case, key,
+                      key + R"(, measured_in = "other.csv", measured_shift_s = 0.26, measured_is_band = true)"
+                            ", window_s = [0.2, 0.9], impulses_s = [[0.2, 0.5], [0.5, 0.9]]"),
+                 "small.toml");
+  const CaseSensor& p1 = *c.find_sensor("P1");
+  EXPECT_EQ(c.measured_file(p1), "other.csv");
+  EXPECT_EQ(c.measured_file(*c.find_sensor("H1")), "") << "nothing measured";
+  EXPECT_EQ(p1.measured_shift_s, 0.26);
+  EXPECT_TRUE(p1.measured_is_band);
+  EXPECT_EQ(c.window_of(p1).start_s, 0.2);
+  EXPECT_EQ(c.window_of(*c.find_sensor("H1")).end_s, 1.0);
+  ASSERT_EQ(p1.impulses_s.size(), 2u);
+  EXPECT_EQ(p1.impulses_s[1].end_s, 0.9);
+  EXPECT_THAT(error_of("normal = [0, 0, 1]", "normal = [0, 0, 1], measured_shift_s = 0.2"),
+              HasSubstr("small.toml:14: sensors[1].measured_shift_s: says how a series was measured"));
+  EXPECT_THAT(error_of(key, key + ", impulses_s = [0.2, 0.5]"), HasSubstr("must be an array of pairs"));
+  EXPECT_THAT(error_of(key, key + ", impulses_s = [[0.5, 0.2]]"), HasSubstr("exchange them"));
+  EXPECT_THAT(error_of("within = 0.1", "within = 0.1, window_s = [0.3, 0.3]"), HasSubstr("must be a span of time"));
+}
+
 TEST(Case, HashFollowsTheBytes) {
   const Case a = parse_case(small_case, "a.toml");
   EXPECT_EQ(a.hash, parse_case(small_case, "b.toml").hash);

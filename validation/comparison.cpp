@@ -43,6 +43,8 @@ void add_arrivals(Comparison& result, const Series& simulated, const MeasuredSer
   const double threshold = options.arrival_fraction * *result.peak.measured;
   result.arrival_s.measured = arrival_time(measured, result.window, threshold);
   result.arrival_s.simulated = arrival_time(simulated, result.window, threshold);
+  result.half_peak_s.measured = arrival_time(measured, result.window, 0.5 * *result.peak.measured);
+  result.half_peak_s.simulated = arrival_time(simulated, result.window, 0.5 * *result.peak.measured);
   if (!result.arrival_s.measured) {
     result.remarks.push_back("no measured arrival: the series is over the threshold from the start");
   } else if (!result.arrival_s.simulated) {
@@ -85,6 +87,7 @@ Comparison describe(const Series& simulated, Window window, const ComparisonOpti
   result.window = window;
   add_simulated(result, simulated, options);
   result.arrival_s.simulated = arrival_at_fraction_of_peak(simulated, window, options.arrival_fraction);
+  result.half_peak_s.simulated = arrival_at_fraction_of_peak(simulated, window, 0.5);
   if (!covers(simulated, window)) result.remarks.push_back(coverage_remark(simulated, window));
   return result;
 }

@@ -4,60 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <memory>
+#include <numeric>
 #include <span>
 #include <stdexcept>
-#include <string_view>
 
 #include "validation/curve.h"
 #include "validation/file_hash.h"
 #include "validation/text_table.h"
-#include "validation/toml_reader.h"
 
 namespace sluice {
 
 namespace {
 
-/// A bin that the samples cover by less is left out: its mean would be that of another stretch of time.
-constexpr double least_cover = 0.9;
-
-toml::table parse_file(const std::filesystem::path& path) {
-  try {
-    return toml::parse_file(path.string());
-  } catch (const toml::parse_error& error) {
-    throw std::runtime_error(fmt::format("{}:{}: {}", path.string(), error.source().begin.line, error.description()));
-  }
-}
-
-DigestColumn read_column(TomlReader& table) {
-  DigestColumn column;
-  column.number = table.integer("number");
-  column.raw_name = table.text("raw_name");
-  column.name = table.text("name");
-  column.unit = table.text("unit");
-  column.scale = table.number_or("scale", 1);
-  column.mean_decimals = table.integer("mean_decimals");
-  column.extreme_decimals = table.integer("extreme_decimals");
-  table.finish();
-  if (column.number < 1) table.fail("number", "columns are counted from 1");
-  if (column.mean_decimals < 0 || column.mean_decimals > 15) table.fail("mean_decimals", "must lie between 0 and 15");
-  if (column.extreme_decimals < 0 || column.extreme_decimals > 15) {
-    table.fail("extreme_decimals", "must lie between 0 and 15");
-  }
-  return column;
-}
-
-char read_separator(TomlReader& table) {
-  const auto word = table.text("separator");
-  if (word == "blank") return ' ';
-  if (word == "comma") return ',';
-  if (word == "semicolon") return ';';
-  if (word == "tab") return '\t';
-  table.fail("separator", fmt::format("\"{}\" is not known; write blank, comma, semicolon or tab", word));
-}
+/// A bin at either end that the samples cover by less is left out: its mean would be that of another stretch of time.
+constexpr double least_cover_of_recording = 0.9;
+constexpr double least_cover_of_scatter = 0.5;
 
 std::vector<std::string> column_labels(const DigestSource& source, std::size_t count) {
   std::vector<std::string> labels;
@@ -73,38 +36,65 @@ struct RawTable {
   std::vector<std::vector<double>> values;  ///< one for each column of the description, scaled
 };
 
-RawTable read_raw(const DigestSource& source, const std::filesystem::path& path) {
+void check_file(const RawFile& file, const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) {
     throw std::runtime_error(
         fmt::format("{}: no such raw file; README.md beside the digest says where it comes from, and the "
                     "environment variable SLUICE_RAW_DATA names the folder of raw data",
                     path.string()));
   }
-  if (!source.raw_hash.empty()) {
-    const auto hash = file_hash(path);
-    if (hash != source.raw_hash) {
-      throw std::runtime_error(
-          fmt::format("{}: its hash is {}, not {} of the file described; take that file, or describe "
-                      "this one and drop raw_hash",
-                      path.string(), hash, source.raw_hash));
-    }
+  if (file.hash.empty()) return;
+  const auto hash = file_hash(path);
+  if (hash != file.hash) {
+    throw std::runtime_error(
+        fmt::format("{}: its hash is {}, not {} of the file described; take that file, or describe "
+                    "this one and drop raw_hash",
+                    path.string(), hash, file.hash));
   }
+}
+
+/// Appends the rows of one file.
+void read_raw(const DigestSource& source, const RawFile& file, const std::filesystem::path& path, RawTable& raw) {
+  check_file(file, path);
   TextTableReader reader(path);
   std::string header;
-  for (int k = 0; k < source.header_lines; ++k) header = reader.next_header_line();
-  if (!source.header.empty() && header != source.header) {
-    reader.fail(fmt::format("the header is not the one described (\"{}\"); the columns may differ", source.header));
+  for (int k = 0; k < file.header_lines; ++k) header = reader.next_header_line();
+  if (!file.header.empty() && header != file.header) {
+    reader.fail(fmt::format("the header is not the one described (\"{}\"); the columns may differ", file.header));
   }
-  auto columns = reader.read_rows(column_labels(source, static_cast<std::size_t>(source.column_count)),
-                                  source.separator, static_cast<std::size_t>(source.time_column - 1));
-  RawTable raw;
-  raw.t_s = columns[static_cast<std::size_t>(source.time_column - 1)];
-  for (double& t : raw.t_s) t *= source.time_scale;
-  for (const auto& column : source.columns) {
-    raw.values.push_back(columns[static_cast<std::size_t>(column.number - 1)]);
-    for (double& value : raw.values.back()) value *= column.scale;
-  }
-  if (raw.t_s.size() < 2) throw std::runtime_error(fmt::format("{}: fewer than two rows", path.string()));
+  RowForm form;
+  form.separator = file.separator;
+  form.any_order = source.scatter;
+  const auto time = static_cast<std::size_t>(source.time_column - 1);
+  const auto columns =
+      reader.read_rows(column_labels(source, static_cast<std::size_t>(source.column_count)), form, time);
+  if (columns[time].size() < 2) throw std::runtime_error(fmt::format("{}: fewer than two rows", path.string()));
+  for (const double t : columns[time]) raw.t_s.push_back(source.time_scale * t);
+  for (std::size_t k = 0; k < source.columns.size(); ++k)
+    for (const double value : columns[static_cast<std::size_t>(source.columns[k].number - 1)])
+      raw.values[k].push_back(source.columns[k].scale * value);
+}
+
+void sort_by_time(RawTable& raw) {
+  std::vector<std::size_t> order(raw.t_s.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return raw.t_s[a] < raw.t_s[b]; });
+  const auto sorted = [&](const std::vector<double>& from) {
+    std::vector<double> to;
+    for (const std::size_t i : order) to.push_back(from[i]);
+    return to;
+  };
+  for (auto& values : raw.values) values = sorted(values);
+  raw.t_s = sorted(raw.t_s);
+}
+
+RawTable read_all(const DigestSource& source, const std::vector<std::filesystem::path>& paths) {
+  if (paths.size() != source.files.size())
+    throw std::runtime_error(
+        fmt::format("{} raw files given, the description names {} (give as many)", paths.size(), source.files.size()));
+  RawTable raw{{}, std::vector<std::vector<double>>(source.columns.size())};
+  for (std::size_t k = 0; k < paths.size(); ++k) read_raw(source, source.files[k], paths[k], raw);
+  if (source.scatter) sort_by_time(raw);
   return raw;
 }
 
@@ -118,7 +108,7 @@ Window bin_edges(long k, double bin_s) {
   return {static_cast<double>(k) * bin_s, static_cast<double>(k + 1) * bin_s};
 }
 
-BinRange covered_bins(const std::vector<double>& t_s, double bin_s) {
+BinRange covered_bins(const std::vector<double>& t_s, double bin_s, double least_cover) {
   const Window samples{t_s.front(), t_s.back()};
   BinRange range{static_cast<long>(std::floor(t_s.front() / bin_s)),
                  static_cast<long>(std::floor(t_s.back() / bin_s)) + 1};
@@ -135,69 +125,140 @@ void append_number(std::string& out, double value, int decimals) {
   out += text;
 }
 
-std::span<const double> samples_in(const Curve& curve, Window edges, const std::string& name) {
-  const auto first = first_at_or_after(curve, edges.begin_s);
-  const auto last = first_at_or_after(curve, edges.end_s);
-  if (first == last) {
-    throw std::runtime_error(
-        fmt::format("{}: no sample between {} and {} s; choose a wider bin_s", name, edges.begin_s, edges.end_s));
-  }
-  return curve.value.subspan(first, last - first);
-}
-
-/// One column of the raw file on its way into bins.
-class ColumnDigest {
- public:
-  ColumnDigest(const DigestColumn& column, Series samples, double smoothing_s)
-      : column_(column),
-        samples_(std::move(samples)),
-        integral_(samples_),
-        smoothing_s_(smoothing_s),
-        smoothed_(smoothing_s > 0 ? running_mean(samples_, smoothing_s) : Series{}) {}
-  ColumnDigest(const ColumnDigest&) = delete;  // the integral looks into the samples
-  ColumnDigest& operator=(const ColumnDigest&) = delete;
-
-  std::string header() const {
-    auto text = fmt::format(",{0}_mean_{1},{0}_min_{1},{0}_max_{1}", column_.name, column_.unit);
-    if (smoothing_s_ > 0) text += fmt::format(",{}_max{:.6g}ms_{}", column_.name, 1e3 * smoothing_s_, column_.unit);
-    return text;
-  }
-
-  void append_bin(std::string& out, Window edges) const {
-    const Window covered = clipped(samples_, edges);
-    const double mean = integral_.between(covered.begin_s, covered.end_s) / (covered.end_s - covered.begin_s);
-    const auto inside = samples_in(samples_, edges, column_.raw_name);
-    const auto [low, high] = std::minmax_element(inside.begin(), inside.end());
-    append_number(out, mean, column_.mean_decimals);
-    append_number(out, *low, column_.extreme_decimals);
-    append_number(out, *high, column_.extreme_decimals);
-    if (smoothing_s_ <= 0) return;
-    const auto smoothed = samples_in(smoothed_, edges, column_.raw_name);
-    append_number(out, *std::max_element(smoothed.begin(), smoothed.end()), column_.extreme_decimals);
-  }
-
- private:
-  const DigestColumn& column_;
-  Series samples_;
-  CumulativeIntegral integral_;
-  double smoothing_s_;
-  Series smoothed_;
+/// What the digest holds of a column in one bin.
+struct BinValues {
+  double mean = 0;
+  double low = 0;
+  double high = 0;
+  double smoothed_high = 0;
+  std::size_t points = 0;
 };
 
+/// Values with times in the bin, its end excluded; times may repeat. A time that is written as an edge, such as 1.275
+/// s, begins a bin whatever the rounding of 51 times 0.025.
+std::span<const double> samples_in(const Curve& curve, Window edges) {
+  constexpr double rounding_s = 1e-9;
+  const auto first = first_at_or_after(curve, edges.begin_s - rounding_s);
+  return curve.value.subspan(first, first_at_or_after(curve, edges.end_s - rounding_s) - first);
+}
+
+std::span<const double> some_samples_in(const Curve& curve, Window edges, const std::string& name) {
+  const auto samples = samples_in(curve, edges);
+  if (samples.empty())
+    throw std::runtime_error(
+        fmt::format("{}: no sample between {} and {} s; choose a wider bin_s", name, edges.begin_s, edges.end_s));
+  return samples;
+}
+
+std::vector<BinValues> recording_bins(const Series& samples, BinRange range, const DigestSource& source,
+                                      const std::string& name) {
+  const CumulativeIntegral integral(samples);
+  const Series smoothed = source.smoothing_s > 0 ? running_mean(samples, source.smoothing_s) : Series{};
+  std::vector<BinValues> bins;
+  for (long k = range.first; k < range.last; ++k) {
+    const Window edges = bin_edges(k, source.bin_s);
+    const Window covered = clipped(samples, edges);
+    const auto inside = some_samples_in(samples, edges, name);
+    BinValues bin;
+    bin.points = inside.size();
+    bin.mean = integral.between(covered.begin_s, covered.end_s) / (covered.end_s - covered.begin_s);
+    bin.low = *std::min_element(inside.begin(), inside.end());
+    bin.high = *std::max_element(inside.begin(), inside.end());
+    if (source.smoothing_s > 0) {
+      const auto means = some_samples_in(smoothed, edges, name);
+      bin.smoothed_high = *std::max_element(means.begin(), means.end());
+    }
+    bins.push_back(bin);
+  }
+  return bins;
+}
+
+/// One value a time: the mean of the points at it.
+Series through_points(const Series& points) {
+  Series curve{points.name, points.unit, {}, {}};
+  for (std::size_t i = 0; i < points.t_s.size();) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (; i + count < points.t_s.size() && points.t_s[i + count] == points.t_s[i]; ++count)
+      sum += points.value[i + count];
+    curve.t_s.push_back(points.t_s[i]);
+    curve.value.push_back(sum / static_cast<double>(count));
+    i += count;
+  }
+  return curve;
+}
+
+/// Bins without points get the straight line between the nearest that have some.
+void bridge_gaps(std::vector<BinValues>& bins) {
+  std::size_t left = 0;
+  for (std::size_t right = 1; right < bins.size(); ++right) {
+    if (bins[right].points == 0) continue;
+    for (std::size_t k = left + 1; k < right; ++k) {
+      const double share = static_cast<double>(k - left) / static_cast<double>(right - left);
+      for (double BinValues::*value : {&BinValues::mean, &BinValues::low, &BinValues::high, &BinValues::smoothed_high})
+        bins[k].*value = bins[left].*value + share * (bins[right].*value - bins[left].*value);
+    }
+    left = right;
+  }
+}
+
+std::vector<BinValues> scatter_bins(const Series& points, BinRange& range, const DigestSource& source) {
+  const Series curve = through_points(points);
+  const Series smoothed = source.smoothing_s > 0 ? running_mean(curve, source.smoothing_s) : curve;
+  while (range.first < range.last && samples_in(points, bin_edges(range.first, source.bin_s)).empty()) ++range.first;
+  std::vector<BinValues> bins;
+  for (long k = range.first; k < range.last; ++k) {
+    const Window edges = bin_edges(k, source.bin_s);
+    const auto inside = samples_in(points, edges);
+    BinValues bin;
+    bin.points = inside.size();
+    if (bin.points > 0) {
+      const auto means = samples_in(smoothed, edges);
+      bin.mean = std::accumulate(inside.begin(), inside.end(), 0.0) / static_cast<double>(bin.points);
+      bin.low = *std::min_element(inside.begin(), inside.end());
+      bin.high = *std::max_element(inside.begin(), inside.end());
+      bin.smoothed_high = *std::max_element(means.begin(), means.end());
+    }
+    bins.push_back(bin);
+  }
+  while (!bins.empty() && bins.back().points == 0) bins.pop_back();
+  bridge_gaps(bins);
+  range.last = range.first + static_cast<long>(bins.size());
+  return bins;
+}
+
+std::string column_header(const DigestColumn& column, const DigestSource& source) {
+  auto text = fmt::format(",{0}_mean_{1},{0}_min_{1},{0}_max_{1}", column.name, column.unit);
+  if (source.smoothing_s > 0)
+    text += fmt::format(",{}_max{:.6g}ms_{}", column.name, 1e3 * source.smoothing_s, column.unit);
+  return source.scatter ? text + fmt::format(",{}_points_1", column.name) : text;
+}
+
+void append_bin(std::string& out, const BinValues& bin, const DigestColumn& column, const DigestSource& source) {
+  append_number(out, bin.mean, column.mean_decimals);
+  append_number(out, bin.low, column.extreme_decimals);
+  append_number(out, bin.high, column.extreme_decimals);
+  if (source.smoothing_s > 0) append_number(out, bin.smoothed_high, column.extreme_decimals);
+  if (source.scatter) out += fmt::format(",{}", bin.points);
+}
+
 std::string digest_text(const DigestSource& source, const RawTable& raw) {
+  BinRange range =
+      covered_bins(raw.t_s, source.bin_s, source.scatter ? least_cover_of_scatter : least_cover_of_recording);
   std::string text = "t_s";
-  std::vector<std::unique_ptr<ColumnDigest>> columns;
+  std::vector<std::vector<BinValues>> columns;
   for (std::size_t k = 0; k < source.columns.size(); ++k) {
-    const auto& column = source.columns[k];
-    columns.push_back(std::make_unique<ColumnDigest>(column, Series{column.name, column.unit, raw.t_s, raw.values[k]},
-                                                     source.smoothing_s));
-    text += columns.back()->header();
+    const DigestColumn& column = source.columns[k];
+    const Series series{column.name, column.unit, raw.t_s, raw.values[k]};
+    columns.push_back(source.scatter ? scatter_bins(series, range, source)
+                                     : recording_bins(series, range, source, column.raw_name));
+    text += column_header(column, source);
   }
   text += '\n';
-  const BinRange range = covered_bins(raw.t_s, source.bin_s);
   for (long bin = range.first; bin < range.last; ++bin) {
     fmt::format_to(std::back_inserter(text), "{:.7g}", (static_cast<double>(bin) + 0.5) * source.bin_s);
-    for (const auto& column : columns) column->append_bin(text, bin_edges(bin, source.bin_s));
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      append_bin(text, columns[k][static_cast<std::size_t>(bin - range.first)], source.columns[k], source);
     text += '\n';
   }
   return text;
@@ -205,41 +266,9 @@ std::string digest_text(const DigestSource& source, const RawTable& raw) {
 
 }  // namespace
 
-DigestSource load_digest_source(const std::filesystem::path& toml_path) {
-  const auto root = parse_file(toml_path);
-  TomlReader reader(root, toml_path.string());
-  DigestSource source;
-  source.raw_file = reader.text("raw_file");
-  source.raw_hash = reader.text_or("raw_hash", "");
-  source.header_lines = reader.integer("header_lines");
-  source.header = reader.text_or("header", "");
-  source.separator = read_separator(reader);
-  source.column_count = reader.integer("column_count");
-  source.time_column = reader.integer("time_column");
-  source.time_scale = reader.has("time_scale") ? reader.positive_number("time_scale") : 1;
-  source.bin_s = reader.positive_number("bin_s");
-  source.smoothing_s = reader.has("smoothing_s") ? reader.positive_number("smoothing_s") : 0;
-  for (auto& table : reader.tables("columns")) {
-    source.columns.push_back(read_column(table));
-    if (source.columns.back().number > source.column_count) {
-      table.fail("number", fmt::format("the raw file has column_count = {} columns", source.column_count));
-    }
-  }
-  if (source.time_column < 1 || source.time_column > source.column_count) {
-    reader.fail("time_column", fmt::format("must lie between 1 and column_count = {}", source.column_count));
-  }
-  reader.finish();
-  return source;
-}
-
-std::filesystem::path raw_data_folder() {
-  const char* set = std::getenv("SLUICE_RAW_DATA");
-  return set && *set ? std::filesystem::path(set) : std::filesystem::path("../shared/data");
-}
-
-void make_digest(const DigestSource& source, const std::filesystem::path& raw_path,
+void make_digest(const DigestSource& source, const std::vector<std::filesystem::path>& raw_paths,
                  const std::filesystem::path& out_csv) {
-  const auto text = digest_text(source, read_raw(source, raw_path));
+  const auto text = digest_text(source, read_all(source, raw_paths));
   std::ofstream out(out_csv, std::ios::binary);
   out << text;
   out.close();
@@ -248,11 +277,17 @@ void make_digest(const DigestSource& source, const std::filesystem::path& raw_pa
   }
 }
 
-std::filesystem::path make_digest(const std::filesystem::path& data_folder, const std::filesystem::path& raw_root) {
-  const auto source = load_digest_source(data_folder / "source.toml");
-  auto out = data_folder / "digest.csv";
-  make_digest(source, raw_root / source.raw_file, out);
-  return out;
+std::vector<std::filesystem::path> make_digests(const std::filesystem::path& data_folder,
+                                                const std::filesystem::path& raw_root) {
+  std::vector<std::filesystem::path> made;
+  for (const DigestPlan& plan : digest_plans(data_folder)) {
+    const auto source = load_digest_source(plan.description);
+    std::vector<std::filesystem::path> raw_paths;
+    for (const RawFile& file : source.files) raw_paths.push_back(raw_root / file.file);
+    make_digest(source, raw_paths, plan.digest);
+    made.push_back(plan.digest);
+  }
+  return made;
 }
 
 }  // namespace sluice

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -91,7 +92,7 @@ std::string small_raw() {
 TEST_F(DigestFolder, BinsHoldMeanExtremesAndSmoothedMaximumUnderTheirNewNamesAndUnits) {
   write("source.toml", small_source);
   write("raw.dat", small_raw());
-  const auto out = make_digest(folder_, folder_);
+  const auto out = make_digests(folder_, folder_).front();
   EXPECT_EQ(text_of(out),
             "t_s,P1_mean_Pa,P1_min_Pa,P1_max_Pa,P1_max4ms_Pa,H1_mean_m,H1_min_m,H1_max_m,H1_max4ms_m\n"
             "0.005,0.000,-5.0,4.0,4.0,5.0000,0.00,9.00,9.00\n"
@@ -110,15 +111,15 @@ TEST_F(DigestFolder, ABinThatIsHardlyCoveredIsLeftOut) {
   std::string raw = small_raw();
   raw.resize(raw.rfind("\n30 ") + 1);  // the last bin now ends at 29 ms: nine tenths are there
   write("raw.dat", raw);
-  EXPECT_EQ(MeasuredData::load(make_digest(folder_, folder_)).series("P1").t_s.size(), 3u);
+  EXPECT_EQ(MeasuredData::load(make_digests(folder_, folder_).front()).series("P1").t_s.size(), 3u);
   raw.resize(raw.rfind("\n29 ") + 1);
   write("raw.dat", raw);
-  EXPECT_EQ(MeasuredData::load(make_digest(folder_, folder_)).series("P1").t_s.size(), 2u);
+  EXPECT_EQ(MeasuredData::load(make_digests(folder_, folder_).front()).series("P1").t_s.size(), 2u);
 }
 
 TEST_F(DigestFolder, ARawFileThatIsNotTheOneDescribedIsRefused) {
   const auto raw = (folder_ / "raw.dat").string();
-  const auto digest = [&] { make_digest(folder_, folder_); };
+  const auto digest = [&] { make_digests(folder_, folder_); };
   write("source.toml", small_source);
   EXPECT_EQ(complaint(digest).substr(0, raw.size() + 18), raw + ": no such raw file");
   write("raw.dat", "t b a\n0 1 2\n1 1 2\n");
@@ -129,6 +130,58 @@ TEST_F(DigestFolder, ARawFileThatIsNotTheOneDescribedIsRefused) {
   EXPECT_EQ(complaint(digest), raw + ":3: column 3 (b): NaN is not finite; leave the row out");
   write("source.toml", std::string("raw_hash = \"fnv1a64:0\"\n") + small_source);
   EXPECT_NE(complaint(digest).find("not fnv1a64:0 of the file described"), std::string::npos);
+}
+
+constexpr const char* scatter_source = R"(scatter = true
+column_count = 2
+time_column = 1
+bin_s = 0.1
+smoothing_s = 0.01
+[[files]]
+raw_file = "a.txt"
+header_lines = 0
+separator = "blank"
+[[files]]
+raw_file = "b.csv"
+header_lines = 1
+header = "t,f"
+separator = "comma"
+[[columns]]
+number = 2
+raw_name = "f"
+name = "U"
+unit = "m_s"
+mean_decimals = 2
+extreme_decimals = 1
+)";
+
+TEST_F(DigestFolder, PointsOfSeveralFilesArePutTogetherAndAGapIsBridgedAndCounted) {
+  write("cloud.source.toml", scatter_source);
+  write("a.txt", "3.9E-1\t\t4\r\n0.05\t1\r\n0.06\t\t3\r\n0.01\t\t2\r\n");  // not in order, a column that comes and goes
+  write("b.csv", "t,f\n0.06,6\n0.31,7\n0.31,9\n");
+  const auto out = make_digests(folder_, folder_).front();
+  EXPECT_EQ(out, folder_ / "cloud.csv");
+  EXPECT_EQ(text_of(out),
+            "t_s,U_mean_m_s,U_min_m_s,U_max_m_s,U_max10ms_m_s,U_points_1\n"
+            "0.05,3.00,1.0,6.0,4.1,4\n"
+            "0.15,4.22,2.0,7.0,5.4,0\n"
+            "0.25,5.44,3.0,8.0,6.6,0\n"
+            "0.35,6.67,4.0,9.0,7.9,3\n");
+  const MeasuredSeries series = MeasuredData::load(out).series("U");
+  EXPECT_EQ(series.unit, "m_s");
+  EXPECT_TRUE(series.has_points(0));
+  EXPECT_FALSE(series.has_points(1));
+}
+
+TEST_F(DigestFolder, RecordingsAreNotPutTogether) {
+  std::string text = scatter_source;
+  write("source.toml", text.replace(text.find("true"), 4, "false"));
+  const std::string message = complaint([&] { make_digests(folder_, folder_); });
+  EXPECT_NE(message.find("source.toml:6: files: samples of several recordings"), std::string::npos) << message;
+}
+
+TEST_F(DigestFolder, AFolderWithoutADescriptionIsRefused) {
+  EXPECT_NE(complaint([&] { make_digests(folder_, folder_); }).find("no source.toml"), std::string::npos);
 }
 
 TEST_F(DigestFolder, ADescriptionThatMakesNoSenseNamesItsLineAndKey) {
@@ -225,8 +278,8 @@ class KleefsmanRaw : public DigestFolder {
 
 TEST_F(KleefsmanRaw, RebuildsTheDigestByteForByte) {
   const auto source = load_digest_source(kleefsman / "source.toml");
-  EXPECT_EQ(file_hash(raw_), source.raw_hash);
-  make_digest(source, raw_, folder_ / "digest.csv");
+  EXPECT_EQ(file_hash(raw_), source.files.front().hash);
+  make_digest(source, {raw_}, folder_ / "digest.csv");
   EXPECT_TRUE(text_of(folder_ / "digest.csv") == text_of(kleefsman / "digest.csv"))
       << "data/kleefsman2005/digest.csv is not what source.toml and the raw file give; run \"sluice data digest\"";
 }
@@ -262,6 +315,58 @@ TEST_F(KleefsmanRaw, ComparedWithItsOwnDigestDeviatesByNothing) {
   EXPECT_NEAR(*c.lag_s, 0, 0.0005);
   EXPECT_GT(*c.correlation, 0.999);
   EXPECT_TRUE(c.remarks.empty());
+}
+
+constexpr const char* column_folder = "data/yeh_petroff";
+
+TEST(ColumnDigest, KeepsTheKnownAnswersOfTheForce) {
+  const MeasuredSeries force = MeasuredData::load(fs::path(column_folder) / "digest.csv").series("F");
+  EXPECT_EQ(force.unit, "N");
+  EXPECT_NEAR(force.bin_s, 0.025, 1e-9);
+  EXPECT_NEAR(*impulse(force, {0.3, 1.3}), 13.3, 0.06);
+  EXPECT_NEAR(*impulse(force, {1.4, 2.3}), -3.8, 0.05);
+  const Window all{0, 2.3};
+  EXPECT_NEAR(peak(force, all)->value, 33.3, 1e-9);
+  EXPECT_NEAR(peak(force, all)->time_s, 0.405, 0.01);
+  EXPECT_NEAR(smoothed_peak(force, all, 0.01)->value, 32.78, 0.01);
+  EXPECT_NEAR(*arrival_time(force, all, 33.2 / 2), 0.364, 0.002);
+  const auto lowest = std::min_element(force.minimum.begin(), force.minimum.end());
+  EXPECT_NEAR(*lowest, -11.6, 0.1);
+  EXPECT_NEAR(force.t_s[static_cast<std::size_t>(lowest - force.minimum.begin())], 1.57, 0.0126);
+}
+
+TEST(ColumnDigest, KeepsTheBandOfTheForce) {
+  const MeasuredSeries force = MeasuredData::load(fs::path(column_folder) / "digest.csv").series("F");
+  std::vector<double> widths;
+  for (std::size_t k = 0; k < force.t_s.size(); ++k)
+    if (force.t_s[k] > 0.5 && force.has_points(k)) widths.push_back(force.maximum[k] - force.minimum[k]);
+  std::sort(widths.begin(), widths.end());
+  EXPECT_NEAR(widths[widths.size() / 2], 1.4, 0.05);
+  EXPECT_NEAR(widths.back(), 8.2, 0.1);
+  EXPECT_EQ(std::count(force.points.begin(), force.points.end(), 0), 0) << "no bin is empty";
+}
+
+TEST(ColumnDigest, KeepsTheVelocityAndItsGap) {
+  const MeasuredSeries u = MeasuredData::load(fs::path(column_folder) / "velocity.csv").series("U");
+  EXPECT_EQ(u.unit, "m_s");
+  EXPECT_NEAR(u.maximum.front(), 2.211, 1e-9);
+  EXPECT_EQ(std::count(u.points.begin(), u.points.end(), 0), 4) << "nothing between 0.65 and 0.85 s";
+}
+
+/// Every digest of a data folder is what its description and the raw files give.
+TEST_F(DigestFolder, TheColumnsDigestsAreRebuiltByteForByte) {
+  for (const DigestPlan& plan : digest_plans(column_folder)) {
+    const DigestSource source = load_digest_source(plan.description);
+    std::vector<fs::path> raw;
+    for (const RawFile& file : source.files) raw.push_back(raw_data_folder() / file.file);
+    if (!fs::exists(raw.front())) {
+      GTEST_SKIP() << "the raw measurement is not part of the project and " << raw.front().string()
+                   << " is not there; set SLUICE_RAW_DATA to the folder of raw data";
+    }
+    make_digest(source, raw, folder_ / "digest.csv");
+    EXPECT_TRUE(text_of(folder_ / "digest.csv") == text_of(plan.digest))
+        << plan.digest << " is not what its description and the raw files give; run \"sluice data digest\"";
+  }
 }
 
 }  // namespace

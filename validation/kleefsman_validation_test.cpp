@@ -44,8 +44,7 @@ QuickRun run_quick_tier(const std::string& solver) {
   run.outcome = run_case(the_case(), resolve_settings(the_case(), request), options);
   if (run.outcome.status == "finished") {
     run.record = read_run(options.out);
-    const MeasuredData measured = MeasuredData::load(resolve_in_source_tree(the_case().measured));
-    run.checks = check_acceptance(the_case(), run.record, &measured);
+    run.checks = check_acceptance(the_case(), run.record, Measurements::load(the_case()));
     fmt::print("{}", acceptance_table(run.checks));
   }
   fs::remove_all(options.out);

@@ -84,8 +84,10 @@ MeasuredData MeasuredData::load(const std::filesystem::path& path) {
                           digest_column(table, fmt::format("{}_max_{}", name, unit)),
                           width,
                           {},
-                          0};
+                          0,
+                          {}};
     add_smoothed_maximum(table, series);
+    if (const std::string count = name + "_points_1"; table.has(count)) series.points = table.values(count);
     check_bins(series, path.string());
     data.names_.push_back(name);
     data.series_.emplace(name, std::move(series));

@@ -23,10 +23,15 @@ struct MeasuredSeries {
   /// none.
   std::vector<double> smoothed_maximum;
   double smoothing_s = 0;
+  /// How many points of a scatter the bin holds; where none, the bin's values are the straight line between its
+  /// neighbours'. Empty for a recording, whose bins all hold samples.
+  std::vector<double> points{};
+
+  bool has_points(std::size_t bin) const { return points.empty() || points[bin] > 0; }
 };
 
-/// All series of one digest: `t_s,P1_mean_Pa,P1_min_Pa,P1_max_Pa,P1_max10ms_Pa,...`, t_s the bin centres. The last kind
-/// of column, whose name gives smoothing_s in milliseconds, may be absent.
+/// All series of one digest: `t_s,P1_mean_Pa,P1_min_Pa,P1_max_Pa,P1_max10ms_Pa,P1_points_1,...`, t_s the bin centres.
+/// The last two kinds of columns, of which the first gives smoothing_s in milliseconds in its name, may be absent.
 class MeasuredData {
  public:
   MeasuredData() = default;

@@ -86,7 +86,7 @@ std::optional<double> impulse(const MeasuredSeries& series, Window window);
 /// Root of the time-mean squared difference of the two interpolants. Missing unless both cover the window.
 std::optional<double> rmse(const Curve& simulated, const Curve& measured, Window window);
 /// The simulated curve is averaged over each bin that lies wholly in the window before it is compared with the bin's
-/// mean.
+/// mean; bins without points of their own are left out.
 std::optional<double> rmse(const Curve& simulated, const MeasuredSeries& measured, Window window);
 
 /// Largest less smallest value within the window (bins: maxima and minima). Missing when not covered.
@@ -102,7 +102,8 @@ std::optional<Lag> best_lag(const Curve& simulated, const Curve& measured, Windo
 
 /// Share of the window's time, 0..1, in which lower <= curve <= upper. Missing unless all three cover the window.
 std::optional<double> share_inside_band(const Curve& curve, const Curve& lower, const Curve& upper, Window window);
-/// The band is each bin's minimum to maximum, widened by `widen_by` (the measurement's uncertainty) on both sides.
+/// The band is each bin's minimum to maximum, widened by `widen_by` (the measurement's uncertainty) on both sides; bins
+/// without points of their own count neither way.
 std::optional<double> share_inside_band(const Curve& curve, const MeasuredSeries& band, Window window, double widen_by);
 
 /// (simulated - measured) / measured. Missing when either is, or when measured is zero.
@@ -140,8 +141,9 @@ struct Comparison {
   std::string sensor;  ///< the measured series' name, such as "P1"
   std::string unit;
   Window window;
-  Pair arrival_s;  ///< both at `arrival_fraction` of the measured peak, so that a spike does not move the threshold
-  Pair peak;       ///< raw
+  Pair arrival_s;    ///< both at `arrival_fraction` of the measured peak, so that a spike does not move the threshold
+  Pair half_peak_s;  ///< both at half of the measured peak, first time
+  Pair peak;         ///< raw
   Pair peak_time_s;
   Pair smoothed_peak;  ///< after a running mean of both
   Pair smoothed_peak_time_s;

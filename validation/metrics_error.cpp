@@ -95,7 +95,7 @@ std::optional<double> rmse(const Curve& simulated, const MeasuredSeries& measure
     const Window there = clipped(simulated, edges);
     const double rounding = 1e-6 * measured.bin_s;
     const bool inside = edges.begin_s >= window.begin_s - rounding && edges.end_s <= window.end_s + rounding;
-    if (!inside || there.end_s <= there.begin_s) continue;
+    if (!inside || !measured.has_points(k) || there.end_s <= there.begin_s) continue;
     const double mean = integral.between(there.begin_s, there.end_s) / (there.end_s - there.begin_s);
     sum += (mean - measured.mean[k]) * (mean - measured.mean[k]);
     ++bins;
@@ -166,10 +166,12 @@ std::optional<double> share_inside_band(const Curve& curve, const MeasuredSeries
   if (!covers(curve, window) || !covers(band, window)) return std::nullopt;
   const Window common = clipped(curve, window);
   double inside_s = 0;
+  double all_s = 0;
   for (std::size_t k = 0; k < band.t_s.size(); ++k) {
     const Window edges = bin(band, k);
     const Window part{std::max(edges.begin_s, common.begin_s), std::min(edges.end_s, common.end_s)};
-    if (part.end_s <= part.begin_s) continue;
+    if (part.end_s <= part.begin_s || !band.has_points(k)) continue;
+    all_s += part.end_s - part.begin_s;
     const auto times = merged_times({curve}, part);
     const auto value = values_at(curve, times);
     const double low = band.minimum[k] - widen_by;
@@ -179,7 +181,8 @@ std::optional<double> share_inside_band(const Curve& curve, const MeasuredSeries
                   share_not_negative(value[i - 1] - low, value[i] - low, high - value[i - 1], high - value[i]);
     }
   }
-  return inside_s / (common.end_s - common.begin_s);
+  if (all_s <= 0) return std::nullopt;
+  return inside_s / all_s;
 }
 
 std::optional<double> noise(const Series& series, Window window, double running_mean_s) {

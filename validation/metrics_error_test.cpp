@@ -140,6 +140,20 @@ TEST(ShareInsideBand, OfADigestIsWidenedByTheUncertainty) {
   EXPECT_NEAR(*share_inside_band(sampled_evenly([](double) { return 2.0; }, whole, 0.01), flat, whole, 0), 1, 1e-12);
 }
 
+TEST(ABridgedGap, CountsInTheImpulseOnly) {
+  auto series = binned([](double) { return 2.0; }, 0.1, 60);
+  series.points.assign(60, 3);
+  const Series two = sampled_evenly([](double) { return 2.0; }, whole, 0.01);
+  for (std::size_t k = 20; k < 40; ++k) {
+    series.points[k] = 0;
+    series.mean[k] = series.minimum[k] = series.maximum[k] = 7;
+  }
+  EXPECT_NEAR(*rmse(two, series, whole), 0, 1e-12);
+  EXPECT_NEAR(*share_inside_band(two, series, whole, 0), 1, 1e-12);
+  EXPECT_FALSE(share_inside_band(two, series, {2.1, 3.9}, 0));
+  EXPECT_NEAR(*impulse(series, whole), 22, 1e-9);
+}
+
 TEST(Noise, OfAFastSineIsItsRootMeanSquare) {
   // 500 Hz: ten periods in the running mean of 20 ms, which takes nothing of it.
   const auto noisy = [](double t) { return 100 * t + 40 * std::sin(2 * pi * 500 * t); };

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "validation/file_hash.h"
 #include "validation/manifest.h"
+#include "validation/measurements.h"
 #include "validation/solver_factory.h"
 
 namespace sluice {
@@ -26,12 +26,14 @@ void put_provenance(json& m, const Case& c) {
   m["cpu"] = cpu_model();
   m["started"] = utc_now();
   m["case_hash"] = c.hash;
-  const std::filesystem::path measured = resolve_in_source_tree(c.measured);
-  if (c.measured.empty() || !std::filesystem::exists(measured)) {
-    m["data_hash"] = nullptr;
-    if (!c.measured.empty()) m["warnings"].push_back(fmt::format("measured data missing: {}", c.measured.string()));
-  } else {
-    m["data_hash"] = file_hash(measured);
+  m["data_hash"] = nullptr;
+  for (const MeasuredFile& file : measured_files(c)) {
+    if (!file.present())
+      m["warnings"].push_back(fmt::format("measured data missing: {}", file.path.generic_string()));
+    else if (file.path == c.measured)
+      m["data_hash"] = file.hash;
+    else
+      m["other_data_hashes"][file.path.generic_string()] = file.hash;
   }
 }
 

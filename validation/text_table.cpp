@@ -157,7 +157,7 @@ std::vector<std::vector<double>> TextTableReader::read_rows(const std::vector<st
       ++skipped_;
       continue;
     }
-    check_time(columns_.at(time_index), names[time_index]);
+    if (!form.any_order) check_time(columns_.at(time_index), names[time_index]);
   }
   return std::exchange(columns_, {});
 }

@@ -25,6 +25,7 @@ struct RowForm {
   bool decimal_comma = false;
   std::vector<std::size_t> wanted = {};  ///< columns that are read, others may hold anything; none: all
   bool skip_incomplete = false;          ///< rows in which a wanted field is empty or NaN are left out and counted
+  bool any_order = false;                ///< times need not increase
 };
 
 /// Reads header lines one by one, then all rows. Every error is a std::runtime_error that begins with "file:line: ".

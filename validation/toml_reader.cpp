@@ -159,6 +159,21 @@ std::pair<double, double> TomlReader::range(std::string_view key) {
   return {values[0], values[1]};
 }
 
+std::vector<std::pair<double, double>> TomlReader::ranges(std::string_view key) {
+  constexpr const char* wanted = "an array of pairs such as [[0.3, 1.3], [1.4, 2.3]]";
+  const toml::node& node = require(key, wanted);
+  if (!node.is_array()) fail(key, fmt::format("is {}, must be {}", type_name(node), wanted));
+  std::vector<std::pair<double, double>> pairs;
+  for (const toml::node& element : *node.as_array()) {
+    const toml::array* pair = element.as_array();
+    if (pair == nullptr || pair->size() != 2) fail(key, fmt::format("holds no pair, must be {}", wanted));
+    pairs.emplace_back(finite((*pair)[0], key), finite((*pair)[1], key));
+    if (pairs.back().first > pairs.back().second)
+      fail(key, fmt::format("runs from {} down to {} (exchange them)", pairs.back().first, pairs.back().second));
+  }
+  return pairs;
+}
+
 Vec3d TomlReader::vec3(std::string_view key) {
   const std::vector<double> values = numbers(key);
   if (values.size() != 3) fail(key, fmt::format("has {} numbers, must have three: [x, y, z]", values.size()));

@@ -42,6 +42,8 @@ class TomlReader {
   std::vector<std::string> texts(std::string_view key);
   /// Exactly two numbers, the first not above the second.
   std::pair<double, double> range(std::string_view key);
+  /// An array of such pairs.
+  std::vector<std::pair<double, double>> ranges(std::string_view key);
   Vec3d vec3(std::string_view key);
 
   TomlReader table(std::string_view key);

@@ -2,9 +2,11 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "validation/case.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/usage_error.h"
 #include "validation/digest.h"
 
 namespace sluice::cli {
@@ -14,17 +16,33 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::string folder = "data/kleefsman2005";
-  std::string raw;
+  std::vector<std::string> raw;
   std::string out;
 };
 
+std::vector<fs::path> raw_paths(const Arguments& arguments, const DigestSource& source) {
+  std::vector<fs::path> paths(arguments.raw.begin(), arguments.raw.end());
+  if (paths.empty())
+    for (const RawFile& file : source.files) paths.push_back(raw_data_folder() / file.file);
+  return paths;
+}
+
 int digest(const Arguments& arguments) {
-  const fs::path folder = resolve_in_source_tree(arguments.folder);
-  const DigestSource source = load_digest_source(folder / "source.toml");
-  const fs::path raw = arguments.raw.empty() ? raw_data_folder() / source.raw_file : fs::path(arguments.raw);
-  const fs::path out = arguments.out.empty() ? folder / "digest.csv" : fs::path(arguments.out);
-  make_digest(source, raw, out);
-  fmt::print("{} from {}\n", out.string(), raw.string());
+  const std::vector<DigestPlan> plans = digest_plans(resolve_in_source_tree(arguments.folder));
+  if (plans.size() > 1 && !(arguments.raw.empty() && arguments.out.empty()))
+    throw UsageError(
+        fmt::format("{} makes {} digests, so --raw and --out cannot say which (put the raw files where "
+                    "its descriptions expect them, below $SLUICE_RAW_DATA)",
+                    arguments.folder, plans.size()));
+  for (const DigestPlan& plan : plans) {
+    const DigestSource source = load_digest_source(plan.description);
+    const std::vector<fs::path> raw = raw_paths(arguments, source);
+    const fs::path out = arguments.out.empty() ? plan.digest : fs::path(arguments.out);
+    make_digest(source, raw, out);
+    std::string names;
+    for (const fs::path& path : raw) names += (names.empty() ? "" : ", ") + path.string();
+    fmt::print("{} from {}\n", out.string(), names);
+  }
   return 0;
 }
 
@@ -34,16 +52,19 @@ void add_data(CLI::App& app, int& exit_code) {
   CLI::App* data = app.add_subcommand("data", "Measured data");
   data->require_subcommand(1);
   data->footer("Example:\n  sluice data digest --help");
-  CLI::App* command = data->add_subcommand("digest", "Make the digest of a measured series from its raw file");
+  CLI::App* command = data->add_subcommand("digest", "Make the digests of a data folder from its raw files");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("FOLDER", arguments->folder, "Data folder with source.toml")->capture_default_str();
-  command->add_option("--raw", arguments->raw,
-                      "Raw file (default: as source.toml names it, below $SLUICE_RAW_DATA or ../shared/data)");
+  command->add_option("FOLDER", arguments->folder, "Data folder with source.toml (and NAME.source.toml)")
+      ->capture_default_str();
+  command->add_option(
+      "--raw", arguments->raw,
+      "Raw file, as many as source.toml names (default: those, below $SLUICE_RAW_DATA or ../shared/data)");
   command->add_option("--out", arguments->out, "Digest (default: FOLDER/digest.csv)");
   command->footer(
       "Examples:\n"
       "  sluice data digest\n"
-      "  sluice data digest data/kleefsman2005 --raw ~/Downloads/test_case_2_exp_data.dat --out digest.csv");
+      "  sluice data digest data/kleefsman2005 --raw ~/Downloads/test_case_2_exp_data.dat --out digest.csv\n"
+      "  sluice data digest data/aureli2015 --raw force.csv");
   command->callback([arguments, &exit_code] { exit_code = digest(*arguments); });
 }
 

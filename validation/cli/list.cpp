@@ -6,6 +6,7 @@
 
 #include "validation/case.h"
 #include "validation/cli/commands.h"
+#include "validation/measurements.h"
 
 namespace sluice::cli {
 namespace {
@@ -36,9 +37,11 @@ std::string tiers_of(const Case& c) {
 }
 
 std::string measured_of(const Case& c) {
-  if (c.measured.empty()) return "none";
-  const bool present = std::filesystem::exists(resolve_in_source_tree(c.measured));
-  return fmt::format("{} ({})", c.measured.string(), present ? "present" : "missing");
+  std::string text;
+  for (const MeasuredFile& file : measured_files(c))
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", file.path.generic_string(),
+                        file.present() ? "present" : "missing");
+  return text.empty() ? "none" : text;
 }
 
 void print_case(const Case& c) {

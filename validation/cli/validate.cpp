@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,12 +50,6 @@ const SolverOption& find_solver(const Case& c, const std::string& name) {
   throw UsageError(fmt::format("--solver: case {} has no solver `{}`{}", c.name, name, suggestion(name, names)));
 }
 
-std::optional<MeasuredData> load_measured(const Case& c) {
-  const fs::path file = resolve_in_source_tree(c.measured);
-  if (c.measured.empty() || !fs::exists(file)) return std::nullopt;
-  return MeasuredData::load(file);
-}
-
 // With --reuse a finished run of this very build and case is not computed again.
 bool is_current(const Case& c, const fs::path& directory) {
   if (!fs::exists(directory / "run.json")) return false;
@@ -91,13 +84,14 @@ std::vector<std::string> walls_in_order(const SolverOption& solver) {
 }
 
 bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
-  const std::optional<MeasuredData> measured = load_measured(c);
-  if (!measured) fmt::print(stderr, "sluice: warning: measured data missing: {}\n", c.measured.string());
+  const Measurements measured = Measurements::load(c);
+  for (const std::string& problem : measured.problems())
+    fmt::print(stderr, "sluice: warning: no measurement: {}\n", problem);
   bool passed = true;
   bool judged = false;
   for (const fs::path& directory : directories) {
     const RunRecord record = read_run(directory);
-    const auto checks = check_acceptance(c, record, measured ? &*measured : nullptr);
+    const auto checks = check_acceptance(c, record, measured);
     const bool applicable = std::any_of(checks.begin(), checks.end(), [](const AcceptanceCheck& check) {
       return check.verdict != AcceptanceVerdict::not_applicable;
     });

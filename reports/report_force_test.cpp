@@ -1,0 +1,221 @@
+// Reports on cases with forces: measured ones, and one whose measurement a user has to supply.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "reports/report.h"
+#include "reports/studies.h"
+#include "reports/synthetic_run.h"
+#include "reports/tables.h"
+#include "validation/digest.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using synthetic::MadeForceRun;
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file);
+  EXPECT_TRUE(in) << file;
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+fs::path fresh(const std::string& name) {
+  const fs::path path = fs::absolute(fs::path(testing::TempDir()) / ("sluice_report_force_" + name));
+  fs::remove_all(path);
+  return path;
+}
+
+const TableCell& cell(const Table& table, const std::string& start, const std::string& csv_name,
+                      const std::string& second = "") {
+  static const TableCell none{"no such cell", std::nullopt};
+  for (std::size_t k = 0; k < table.columns.size(); ++k)
+    for (const TableRow& row : table.rows)
+      if (table.columns[k].csv_name == csv_name && !row.is_group() && row.cells[0].text.starts_with(start) &&
+          (second.empty() || row.cells[1].text.starts_with(second)))
+        return row.cells[k];
+  ADD_FAILURE() << "no row " << start << " with a column " << csv_name << " in " << table.name;
+  return none;
+}
+
+TEST(ForceTables, KnownScaleAndShiftGiveKnownNumbersByBothRoutes) {
+  const fs::path dir = fresh("known");
+  MadeForceRun run;
+  run.scale = 1.1;
+  run.second_scale = 0.7;
+  synthetic::write_force_run(dir, run);
+  const ReportData data = analyse({dir});
+  const Table impulses = force_impulses_table(data, "F_column");
+  EXPECT_NEAR(*cell(impulses, "Experiment", "impulse_0.3_1.3_s_N_s").value, 13.35, 0.01);
+  EXPECT_NEAR(*cell(impulses, "R1", "impulse_0.3_1.3_s_deviation_percent", "acceleration").value, 10, 0.5);
+  EXPECT_NEAR(*cell(impulses, "R1", "impulse_0.3_1.3_s_deviation_percent", "pressure").value, -30, 0.5);
+  EXPECT_NEAR(*cell(impulses, "R1", "impulse_1.4_2.3_s_deviation_percent", "acceleration").value, 10, 1);
+  EXPECT_GT(*cell(impulses, "R1", "inside_band_percent", "acceleration").value, 30);
+  run.scale = 1;
+  run.shift_s = 0.02;
+  synthetic::write_force_run(dir, run);
+  const Table peaks = force_peaks_table(analyse({dir}));
+  // A line through bin means rises less steeply than the band's points: some milliseconds.
+  EXPECT_NEAR(*cell(peaks, "R1", "half_peak_difference_ms", "acceleration").value, 20, 3);
+}
+
+TEST(ForceTables, MeanOfTheBandLiesInsideIt) {
+  const fs::path dir = fresh("band");
+  synthetic::write_force_run(dir, {});
+  const Table table = force_impulses_table(analyse({dir}), "F_column");
+  EXPECT_GT(*cell(table, "R1", "inside_band_percent", "acceleration").value, 75);
+  EXPECT_LT(*cell(table, "R1", "rmse_over_range_percent", "acceleration").value, 2);
+}
+
+TEST(ForceTables, AcceptanceOfTheColumn) {
+  const fs::path good = fresh("accept_good");
+  const fs::path bad = fresh("accept_bad");
+  MadeForceRun run;
+  synthetic::write_force_run(good, run);
+  run.alpha = 0.001;
+  run.shift_s = 0.04;
+  run.scale = 1.3;
+  synthetic::write_force_run(bad, run);
+  const ReportData data = analyse({good, bad});
+  EXPECT_TRUE(all_passed(data.runs[0].acceptance)) << acceptance_table(data.runs[0].acceptance);
+  int failed = 0;
+  for (const AcceptanceCheck& check : data.runs[1].acceptance) failed += check.verdict == AcceptanceVerdict::fail;
+  EXPECT_EQ(failed, 3) << acceptance_table(data.runs[1].acceptance);
+}
+
+TEST(ForceTables, PeakAndImpulseConvergeOrSayThatTheyDoNot) {
+  std::vector<fs::path> dirs;
+  MadeForceRun run;
+  run.case_name = "aureli";
+  for (double l0 : {0.04, 0.02, 0.01}) {
+    dirs.push_back(fresh("resolution_" + std::to_string(dirs.size())));
+    run.l0_m = l0;
+    run.scale = 1 + 100 * l0 * l0;
+    synthetic::write_force_run(dirs.back(), run);
+  }
+  const Table table = resolution_table(analyse(dirs));
+  EXPECT_TRUE(cell(table, "F_block peak", "observed_order").text.starts_with("order 2.0"));
+  EXPECT_NE(cell(table, "F_block impulse", "observed_order").text.find("grid convergence index"), std::string::npos);
+  EXPECT_NEAR(*cell(table, "F_block impulse", "l0_40_mm").value, 1.16, 0.01) << "10 N over 0.1 s";
+  run.scale = 3;
+  synthetic::write_force_run(dirs.back(), run);
+  EXPECT_EQ(cell(resolution_table(analyse(dirs)), "F_block impulse", "observed_order").text,
+            "not in the asymptotic range");
+}
+
+TEST(ForceTables, StatementsOnTheForceNeedAMeasurementOrNot) {
+  const fs::path viscous = fresh("statement_viscous");
+  const fs::path thin = fresh("statement_thin");
+  const fs::path mps = fresh("statement_mps");
+  MadeForceRun run;
+  run.case_name = "aureli";
+  run.l0_m = 0.01;
+  run.alpha = 0.1;
+  run.noise_N = 0.2;
+  synthetic::write_force_run(viscous, run);
+  run.alpha = 0.01;
+  run.noise_N = 0.5;
+  synthetic::write_force_run(thin, run);
+  run.solver = "mps";
+  run.walls = "dummies";
+  synthetic::write_force_run(mps, run);
+  const Table table = conclusions_table(analyse({viscous, thin, mps}));
+  ASSERT_EQ(table.rows.size(), 4u);
+  EXPECT_EQ(cell(table, "α = 0.1 gives the best force", "verdict").text, "no measurement");
+  EXPECT_EQ(cell(table, "Oscillations", "verdict").text, "agrees") << cell(table, "Oscillations", "runs").text;
+  EXPECT_EQ(cell(table, "MPS costs 2.0 times WCSPH", "paper").text, "1.2 times at l0 = 5 mm, 2.0 times at l0 = 2.5 mm");
+  EXPECT_EQ(cell(table, "MPS costs 2.0 times WCSPH", "verdict").text, "does not agree") << "the same cost";
+}
+
+/// A working directory with a user's file in it, as in a clone.
+class UsersMeasurement : public testing::Test {
+ protected:
+  void SetUp() override {
+    before_ = fs::current_path();
+    folder_ = fresh("user");
+    fs::create_directories(folder_ / "data");
+    fs::copy("data/aureli2015", folder_ / "data/aureli2015", fs::copy_options::recursive);
+    fs::remove(folder_ / "data/aureli2015/digest.csv");
+    fs::current_path(folder_);
+  }
+  void TearDown() override { fs::current_path(before_); }
+
+  fs::path before_;
+  fs::path folder_;
+};
+
+TEST_F(UsersMeasurement, IsMissingUntilAFileOfTheStatedFormIsThere) {
+  MadeForceRun run;
+  run.case_name = "aureli";
+  run.l0_m = 0.02;
+  run.scale = 1.2;
+  synthetic::write_force_run("run", run);
+  ReportData data = analyse({"run"});
+  EXPECT_EQ(data.measured_series("F_block"), nullptr);
+  EXPECT_EQ(data.measured_remark("F_block"), "Measured: missing.");
+  ASSERT_EQ(data.measured.problems().size(), 1u);
+  EXPECT_NE(data.measured.problems()[0].find("data/aureli2015/README.md"), std::string::npos);
+  EXPECT_EQ(cell(force_peaks_table(data), "Experiment", "peak_N").text, "missing");
+  EXPECT_EQ(cell(force_peaks_table(data), "R1", "peak_deviation_percent").text, "missing");
+
+  fs::create_directories("raw/aureli2015");
+  std::ofstream out("raw/aureli2015/force.csv");
+  out << "t_s,F_N\n";
+  for (int k = 0; k <= 600; ++k) {
+    const double t = 0.005 * k;
+    out << t << ',' << std::max(0.0, 10 * (1 - std::abs(t - 0.6) / 0.1)) << '\n';
+  }
+  out.close();
+  EXPECT_EQ(make_digests("data/aureli2015", "raw").front(), "data/aureli2015/digest.csv");
+  data = analyse({"run"});
+  EXPECT_TRUE(data.measured.problems().empty());
+  EXPECT_NEAR(*cell(force_peaks_table(data), "Experiment", "peak_N").value, 10, 1e-9);
+  EXPECT_NEAR(*cell(force_peaks_table(data), "R1", "peak_deviation_percent", "acceleration").value, 20, 1);
+  EXPECT_NEAR(*cell(force_impulses_table(data, "F_block"), "R1", "impulse_0_3_s_deviation_percent").value, 20, 0.5);
+  EXPECT_EQ(cell(force_impulses_table(data, "F_block"), "R1", "inside_band_percent").text, "missing") << "no band";
+}
+
+TEST(ForceReport, LeavesOutWhatTheCaseHasNot) {
+  const fs::path run = fresh("whole_run");
+  const fs::path other = fresh("whole_other");
+  const fs::path out = fresh("whole_out");
+  MadeForceRun made;
+  synthetic::write_force_run(run, made);
+  made.alpha = 0.1;
+  synthetic::write_force_run(other, made);
+  write_report({run, other}, out);
+  const std::string page = read(out / "report.md");
+  for (const char* absent : {"## Pressure", "## Wave", "Table 2", "FreSCo", "## The paper's statements"})
+    EXPECT_EQ(page.find(absent), std::string::npos) << absent;
+  for (const char* present :
+       {"## Forces", "## Velocities", "## Geometry", "Assumptions of the case", "The gate opens at once",
+        "## Acceptance", "0.26 s were added to the measured times", "## Artificial viscosity"})
+    EXPECT_NE(page.find(present), std::string::npos) << present;
+  for (const char* file :
+       {"force_F_column.svg", "force_F_column_raw.svg", "force_impact_F_column.svg", "force_routes_F_column.svg",
+        "force_alpha_F_column.svg", "velocity_U.svg", "initial_geometry.svg"})
+    EXPECT_TRUE(fs::exists(out / "figures" / file)) << file;
+  EXPECT_TRUE(fs::exists(out / "tables/parameters.csv")) << "no table of a paper";
+}
+
+TEST(ForceReport, OfTheUnmeasuredCaseSaysSoAndNumbersThePapersTable) {
+  const fs::path run = fresh("aureli_run");
+  const fs::path out = fresh("aureli_out");
+  MadeForceRun made;
+  made.case_name = "aureli";
+  made.l0_m = 0.02;
+  synthetic::write_force_run(run, made);
+  write_report({run}, out);
+  const std::string page = read(out / "report.md");
+  EXPECT_NE(page.find("(the paper's figure 12)"), std::string::npos);
+  EXPECT_NE(page.find("Measured: missing."), std::string::npos);
+  EXPECT_NE(page.find("(the paper's figure 10)"), std::string::npos);
+  EXPECT_TRUE(fs::exists(out / "tables/table3_parameters.csv"));
+}
+
+}  // namespace
+}  // namespace sluice

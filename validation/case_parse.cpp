@@ -15,29 +15,14 @@
 namespace sluice {
 namespace {
 
+using case_parse::inside;
 using case_parse::names_of;
 using case_parse::one_of;
+using case_parse::parse_unit_vector;
+using case_parse::refuse_repeated_name;
 
-// Positions are given to a tenth of a millimetre at best.
-constexpr double position_tolerance_m = 1e-6;
-
-bool inside(const Box& box, const Vec3d& p) {
-  constexpr double e = position_tolerance_m;
-  return p.x >= box.lower.x - e && p.y >= box.lower.y - e && p.z >= box.lower.z - e && p.x <= box.upper.x + e &&
-         p.y <= box.upper.y + e && p.z <= box.upper.z + e;
-}
-
-bool strictly_inside(const Box& box, const Vec3d& p) {
-  constexpr double e = position_tolerance_m;
-  return p.x > box.lower.x + e && p.y > box.lower.y + e && p.z > box.lower.z + e && p.x < box.upper.x - e &&
-         p.y < box.upper.y - e && p.z < box.upper.z - e;
-}
-
-template <class T>
-void refuse_repeated_name(const TomlReader& reader, const std::vector<T>& items, const std::string& name) {
-  for (const T& item : items)
-    if (item.name == name) reader.fail("name", fmt::format("`{}` occurs twice (give each its own name)", name));
-}
+// Lengths are given to a tenth of a millimetre at best.
+constexpr double same_length_m = 1e-6;
 
 Box parse_box(TomlReader& reader) {
   Box box{reader.vec3("lower_m"), reader.vec3("upper_m")};
@@ -86,14 +71,6 @@ Obstacle parse_obstacle(TomlReader& reader, const Case& c) {
   return obstacle;
 }
 
-Vec3d parse_unit_vector(TomlReader& reader, std::string_view key) {
-  const Vec3d v = reader.vec3(key);
-  const double length = std::sqrt(dot(v, v));
-  if (std::abs(length - 1) > 1e-9)
-    reader.fail(key, fmt::format("has length {}, must be a unit vector such as [1, 0, 0]", length));
-  return v;
-}
-
 Placement parse_placement(TomlReader& reader, const Case& c) {
   Placement placement;
   placement.name = reader.text("name");
@@ -132,79 +109,10 @@ void parse_fluid_constants(TomlReader& root, Case& c) {
   c.water_height_m = root.positive_number("water_height_m");
   double highest = 0;
   for (const Box& fluid : c.fluid) highest = std::max(highest, fluid.upper.z - c.tank.lower.z);
-  if (std::abs(highest - c.water_height_m) > position_tolerance_m)
+  if (std::abs(highest - c.water_height_m) > same_length_m)
     root.fail("water_height_m",
               fmt::format("is {} m, but the fluid in geometry.fluid stands {} m high (make them agree)",
                           c.water_height_m, highest));
-}
-
-void check_sensor_place(const TomlReader& reader, const CaseSensor& sensor, const Case& c) {
-  if (!inside(c.tank, sensor.position_m))
-    reader.fail("position_m", "lies outside of the tank (give a point inside geometry.tank)");
-  for (std::size_t k = 0; k < c.obstacles.size(); ++k)
-    if (strictly_inside(c.obstacles[k].box, sensor.position_m))
-      reader.fail("position_m", fmt::format("lies inside geometry.obstacles[{}] (move it to a face)", k));
-}
-
-// A column's name is `<sensor>[_<model>]_<unit>`: a name that begins like another sensor's could be taken for it.
-void check_sensor_name(const TomlReader& reader, const std::string& name, const Case& c) {
-  refuse_repeated_name(reader, c.sensors, name);
-  if (name.find_first_of(",\" ") != std::string::npos)
-    reader.fail("name", "has a comma, quote or blank (it becomes part of a column name in probes.csv)");
-  for (const CaseSensor& other : c.sensors)
-    if (name.starts_with(other.name + "_") || other.name.starts_with(name + "_"))
-      reader.fail("name", fmt::format("cannot be told from sensor {} by the columns of probes.csv (choose another)",
-                                      other.name));
-}
-
-BodyFace parse_face(TomlReader& reader) {
-  if (!reader.has("face")) return {};
-  const std::string name = one_of(reader, "face", {"x-", "x+", "y-", "y+", "z-", "z+"});
-  return {name[0] - 'x', name[1] == '+'};
-}
-
-void parse_force(TomlReader& reader, CaseSensor& sensor, const Case& c) {
-  std::vector<std::string> bodies{"tank"};
-  for (const Obstacle& obstacle : c.obstacles)
-    if (!obstacle.name.empty()) bodies.push_back(obstacle.name);
-  sensor.body = one_of(reader, "body", bodies);
-  sensor.face = parse_face(reader);
-  sensor.normal = parse_unit_vector(reader, "direction");
-}
-
-void parse_measured(TomlReader& reader, CaseSensor& sensor) {
-  sensor.measured = reader.text_or("measured", "");
-  sensor.measured_in = reader.text_or("measured_in", "");
-  sensor.measured_shift_s = reader.number_or("measured_shift_s", 0);
-  sensor.measured_is_band = reader.flag_or("measured_is_band", false);
-  for (const char* key : {"measured_in", "measured_shift_s", "measured_is_band"})
-    if (sensor.measured.empty() && reader.has(key))
-      reader.fail(key, "says how a series was measured, but `measured` names none (add it, or leave this out)");
-  if (reader.has("window_s")) sensor.window = case_parse::parse_window(reader, "window_s");
-  sensor.impulses_s = case_parse::parse_windows(reader, "impulses_s");
-}
-
-CaseSensor parse_sensor(TomlReader& reader, const Case& c) {
-  CaseSensor sensor;
-  sensor.name = reader.text("name");
-  check_sensor_name(reader, sensor.name, c);
-  const std::vector<SensorKind> kinds{SensorKind::pressure, SensorKind::wave_height, SensorKind::force,
-                                      SensorKind::velocity};
-  std::vector<std::string> kind_names;
-  for (const SensorKind kind : kinds) kind_names.emplace_back(to_string(kind));
-  const std::string kind = one_of(reader, "kind", kind_names);
-  sensor.kind =
-      kinds[static_cast<std::size_t>(std::find(kind_names.begin(), kind_names.end(), kind) - kind_names.begin())];
-  if (sensor.kind == SensorKind::force) {
-    parse_force(reader, sensor, c);
-  } else {
-    sensor.position_m = reader.vec3("position_m");
-    check_sensor_place(reader, sensor, c);
-    sensor.normal = parse_unit_vector(reader, sensor.kind == SensorKind::velocity ? "direction" : "normal");
-  }
-  parse_measured(reader, sensor);
-  reader.finish();
-  return sensor;
 }
 
 void parse_times(TomlReader& root, Case& c) {
@@ -277,7 +185,7 @@ Case parse_root(TomlReader root) {
   if (root.has("assumptions")) c.assumptions = root.texts("assumptions");
   parse_geometry(root.table("geometry"), c);
   parse_fluid_constants(root, c);
-  for (TomlReader& sensor : root.tables("sensors")) c.sensors.push_back(parse_sensor(sensor, c));
+  for (TomlReader& sensor : root.tables("sensors")) c.sensors.push_back(case_parse::parse_sensor(sensor, c));
   c.measured = root.text_or("measured", "");
   for (const CaseSensor& sensor : c.sensors)
     if (!sensor.measured.empty() && c.measured_file(sensor).empty())

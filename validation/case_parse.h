@@ -17,12 +17,27 @@ std::vector<std::string> names_of(const std::vector<T>& items) {
   return names;
 }
 
+template <class T>
+void refuse_repeated_name(const TomlReader& reader, const std::vector<T>& items, const std::string& name) {
+  for (const T& item : items)
+    if (item.name == name) reader.fail("name", "`" + name + "` occurs twice (give each its own name)");
+}
+
+/// Whether a point lies in a box or on its faces, to a micrometre: positions are given to a tenth of a millimetre at
+/// best.
+bool inside(const Box& box, const Vec3d& p);
+
 /// The key's text, which must be one of the choices.
 std::string one_of(TomlReader& reader, std::string_view key, const std::vector<std::string>& choices);
 
 /// A span of time, or several, that do not start before 0; none where the key is absent.
 TimeWindow parse_window(TomlReader& reader, std::string_view key);
 std::vector<TimeWindow> parse_windows(TomlReader& reader, std::string_view key);
+
+Vec3d parse_unit_vector(TomlReader& reader, std::string_view key);
+
+/// The case's geometry and the sensors before this one must be there already.
+CaseSensor parse_sensor(TomlReader& reader, const Case& c);
 
 /// Appends the rows of one [[acceptance]] group; the case's sensors and solvers must be there already.
 void parse_acceptance_group(TomlReader& reader, Case& c);

@@ -245,7 +245,7 @@ TEST(Placement, OutsideOfTheTankOrIntoAnotherBodyIsRefused) {
     return std::string();
   };
   EXPECT_THAT(refused(1.7), AllOf(HasSubstr("block_distance_m"), HasSubstr("outside of the tank")));
-  EXPECT_THAT(refused(-0.1), HasSubstr("into another one"));
+  EXPECT_THAT(refused(-0.02), HasSubstr("into another one"));
   EXPECT_THAT(refused(-0.4), HasSubstr("into the fluid"));
 }
 

@@ -138,7 +138,7 @@ class UsersMeasurement : public testing::Test {
     before_ = fs::current_path();
     folder_ = fresh("user");
     fs::create_directories(folder_ / "data");
-    fs::copy("data/aureli2015", folder_ / "data/aureli2015", fs::copy_options::recursive);
+    fs::copy(resolve_in_source_tree("data/aureli2015"), folder_ / "data/aureli2015", fs::copy_options::recursive);
     fs::remove(folder_ / "data/aureli2015/digest.csv");
     fs::current_path(folder_);
   }

@@ -160,8 +160,8 @@ std::string half_peak_words(const ReportData& data, const std::string& sensor) {
     return reading == nullptr ? std::nullopt : reading->comparison.half_peak_s.difference();
   });
   if (runs.empty()) return "";
-  const std::string out = fmt::format("; time of half the measured peak, simulated − measured: {} ms ({})",
-                                      with_sign(1000 * runs.front().value, 0), runs.front().run->key);
+  std::string out = fmt::format("; time of half the measured peak, simulated − measured: {} ms ({})",
+                                with_sign(1000 * runs.front().value, 0), runs.front().run->key);
   if (runs.size() == 1) return out;
   return out + fmt::format(" to {} ms ({})", with_sign(1000 * runs.back().value, 0), runs.back().run->key);
 }

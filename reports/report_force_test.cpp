@@ -25,7 +25,7 @@ std::string read(const fs::path& file) {
 }
 
 fs::path fresh(const std::string& name) {
-  const fs::path path = fs::absolute(fs::path(testing::TempDir()) / ("sluice_report_force_" + name));
+  fs::path path = fs::absolute(fs::path(testing::TempDir()) / ("sluice_report_force_" + name));
   fs::remove_all(path);
   return path;
 }

@@ -74,9 +74,9 @@ PlotPanel alpha_panel(const ReportData& data, const std::string& sensor, const s
       low = std::min(low, curve.x.back());
       high = std::max(high, curve.x.back());
     }
-    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+    if (curve.x.size() > 1) panel.curves.push_back(std::move(curve));
   }
-  if (high > 0) panel.x_range = {low / 1.6, high * 1.6};
+  if (!panel.curves.empty()) panel.x_range = {low / 1.6, high * 1.6};
   return panel;
 }
 
@@ -93,6 +93,7 @@ std::vector<Picture> force_alpha_figures(const FigureMaker& maker) {
         alpha_panel(maker.data, sensor, "peak after 10 ms mean [N]",
                     [](const Comparison& c) { return c.smoothed_peak.simulated; }),
         alpha_panel(maker.data, sensor, "noise [N]", [](const Comparison& c) { return c.noise.simulated; })};
+    if (figure.panels.front().curves.empty()) continue;
     pictures.push_back(draw_picture(
         maker, figure,
         fmt::format("{}: its peak after a 10 ms running mean, and its noise (root mean square of what a 20 ms running "

@@ -8,6 +8,7 @@
 
 #include "reports/figures.h"
 #include "reports/gnuplot.h"
+#include "reports/studies.h"
 #include "reports/text.h"
 
 namespace sluice {
@@ -240,6 +241,16 @@ std::string sizes_in_words(const Case& c) {
   return words + ".";
 }
 
+/// Runs that place a body elsewhere than it is drawn.
+std::string placed_elsewhere(const ReportData& data) {
+  std::string words;
+  for (const AnalysedRun& run : data.runs)
+    for (const Placement& placement : data.the_case.placements)
+      if (const double at_m = placed_at_m(placement, run.record); at_m != placement.drawn_m)
+        words += fmt::format("{}{} {} m ({})", words.empty() ? "" : ", ", placement.name, metres(at_m), run.key);
+  return words.empty() ? "" : " Placed elsewhere: " + words + ".";
+}
+
 }  // namespace
 
 std::vector<Picture> geometry_figures(const FigureMaker& maker) {
@@ -255,8 +266,8 @@ std::vector<Picture> geometry_figures(const FigureMaker& maker) {
   const int number = c.published.geometry_figure;
   const std::string paper = number > 0 ? fmt::format(" (the paper's figure {})", number) : "";
   return {{"initial_geometry",
-           fmt::format("The case at t = 0{}, as its file gives it, before lengths are fitted to a lattice. {}", paper,
-                       sizes_in_words(c)),
+           fmt::format("The case at t = 0{}, as its file gives it, before lengths are fitted to a lattice. {}{}", paper,
+                       sizes_in_words(c), placed_elsewhere(maker.data)),
            "Plan and elevation of tank, water, obstacles and sensors with their lengths",
            std::filesystem::path("figures") / "initial_geometry.svg", true}};
 }

@@ -10,6 +10,7 @@
 #include "reports/figures.h"
 #include "reports/gnuplot.h"
 #include "reports/snapshot_view.h"
+#include "reports/studies.h"
 #include "reports/text.h"
 #include "solvers/snapshot.h"
 
@@ -192,7 +193,8 @@ std::string snapshot_caption(const Case& the_case, const AnalysedRun& run, const
 }
 
 Picture draw_snapshots(const FigureMaker& maker, const AnalysedRun& run, const std::vector<SnapshotEntry>& entries) {
-  const Case& the_case = maker.data.the_case;
+  Case the_case = maker.data.the_case;
+  the_case.obstacles = placed_obstacles(the_case, run.record);
   const std::string name = "snapshots_" + run.key;
   const std::filesystem::path folder = maker.report_folder / "figures";
   std::filesystem::create_directories(folder);

@@ -160,11 +160,10 @@ std::string half_peak_words(const ReportData& data, const std::string& sensor) {
     return reading == nullptr ? std::nullopt : reading->comparison.half_peak_s.difference();
   });
   if (runs.empty()) return "";
-  std::string out = fmt::format("; half of the measured peak is reached {} ms later ({})",
+  std::string out = fmt::format("; time of half the measured peak, simulated − measured: {} ms ({})",
                                 with_sign(1000 * runs.front().value, 0), runs.front().run->key);
-  return runs.size() > 1
-             ? out + fmt::format(" to {} ms ({})", with_sign(1000 * runs.back().value, 0), runs.back().run->key)
-             : out;
+  if (runs.size() == 1) return out;
+  return out + fmt::format(" to {} ms ({})", with_sign(1000 * runs.back().value, 0), runs.back().run->key);
 }
 
 std::string force_finding(const ReportData& data, const std::string& sensor) {

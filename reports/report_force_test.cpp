@@ -25,7 +25,7 @@ std::string read(const fs::path& file) {
 }
 
 fs::path fresh(const std::string& name) {
-  const fs::path path = fs::absolute(fs::path(testing::TempDir()) / ("sluice_report_force_" + name));
+  fs::path path = fs::absolute(fs::path(testing::TempDir()) / ("sluice_report_force_" + name));
   fs::remove_all(path);
   return path;
 }
@@ -131,6 +131,34 @@ TEST(ForceTables, StatementsOnTheForceNeedAMeasurementOrNot) {
   EXPECT_EQ(cell(table, "MPS costs 2.0 times WCSPH", "verdict").text, "does not agree") << "the same cost";
 }
 
+TEST(ForceTables, LengthsThatSourcesLeaveOpenHaveTheirTableAndAreNoResolutionOrAlpha) {
+  const fs::path near = fresh("placement_near");
+  const fs::path far = fresh("placement_far");
+  MadeForceRun run;
+  run.case_name = "aureli";
+  run.l0_m = 0.02;
+  synthetic::write_force_run(far, run);
+  run.placements = {{"block_distance_m", 0.45}};
+  run.shift_s = -0.05;
+  run.alpha = 0.1;
+  synthetic::write_force_run(near, run);
+  EXPECT_TRUE(placements_table(analyse({near, far})).rows.empty()) << "they differ in alpha too";
+  EXPECT_TRUE(alpha_series(analyse({near, far})).empty()) << "and in the place of the block";
+  run.alpha = 0.01;
+  synthetic::write_force_run(near, run);
+  const ReportData data = analyse({near, far});
+  const Table table = placements_table(data);
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(*table.rows[1].cells[2].value, 0.45);
+  EXPECT_NEAR(*table.rows[2].cells[3].value - *table.rows[1].cells[3].value, 0.05, 1e-6) << "arrival";
+  EXPECT_TRUE(resolution_series(data).empty());
+  for (const AnalysedRun& r : data.runs) {
+    const double drawn_m = data.the_case.obstacles.back().box.upper.x;
+    const double at_m = placed_at_m(data.the_case.placements.front(), r.record);
+    EXPECT_NEAR(placed_obstacles(data.the_case, r.record).back().box.upper.x, drawn_m + 0.51 - at_m, 1e-12);
+  }
+}
+
 /// A working directory with a user's file in it, as in a clone.
 class UsersMeasurement : public testing::Test {
  protected:
@@ -138,7 +166,7 @@ class UsersMeasurement : public testing::Test {
     before_ = fs::current_path();
     folder_ = fresh("user");
     fs::create_directories(folder_ / "data");
-    fs::copy("data/aureli2015", folder_ / "data/aureli2015", fs::copy_options::recursive);
+    fs::copy(resolve_in_source_tree("data/aureli2015"), folder_ / "data/aureli2015", fs::copy_options::recursive);
     fs::remove(folder_ / "data/aureli2015/digest.csv");
     fs::current_path(folder_);
   }

@@ -73,6 +73,17 @@ void add_alpha_section(std::vector<ReportSection>& sections, const FigureMaker& 
   sections.push_back(std::move(section));
 }
 
+void add_placements_section(std::vector<ReportSection>& sections, const ReportData& data) {
+  Table table = placements_table(data);
+  if (table.rows.empty()) return;
+  ReportSection section{"placements", "Lengths that the sources leave open", {}};
+  section.blocks.push_back(
+      hint("Runs that differ in one such length alone. What changes from row to row is what the "
+           "assumption may cost."));
+  section.blocks.push_back(std::move(table));
+  sections.push_back(std::move(section));
+}
+
 void add_resolution_section(std::vector<ReportSection>& sections, const FigureMaker& maker) {
   ReportSection section{"resolution", "Resolution", {}};
   const auto series = resolution_series(maker.data);
@@ -196,6 +207,7 @@ std::vector<ReportSection> report_sections(const FigureMaker& maker, bool snapsh
   add_sensor_sections(sections, maker);
   add_walls_section(sections, maker);
   add_alpha_section(sections, maker);
+  add_placements_section(sections, data);
   add_resolution_section(sections, maker);
   if (snapshots && maker.enabled) add_snapshot_section(sections, maker);
   add_conclusions_section(sections, data);

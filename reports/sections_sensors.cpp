@@ -83,8 +83,9 @@ ReportSection force_section(const FigureMaker& maker) {
   section.blocks.push_back(hint(
       "A force is read by two routes: `acceleration` sums mass times the acceleration that the fluid would give to "
       "the wall's particles (the paper's reading of WCSPH), `pressure` the pressures of the first layer times its "
-      "area (the paper's of MPS). In still water both are exact; how far they part in a flow says how far to trust "
-      "either. Black: the measured mean; grey: the band of the measured points. Long views show a 10 ms running "
+      "area (the paper's of MPS). In still water they agree within a few per cent; how far they part in a flow "
+      "says how far to trust either. Black: the measured mean; grey: the band of the measured points. Long views show "
+      "a 10 ms running "
       "mean of the runs, then the raw readings; close views show the first impact, raw."));
   append(section, series_figures(maker, SensorKind::force));
   append(section, series_figures(maker, SensorKind::force, true));

@@ -18,6 +18,11 @@ bool same_end(const RunRecord& a, const RunRecord& b) {
   return a.number("t_end_s") == b.number("t_end_s");
 }
 
+bool same_places(const ReportData& data, const RunRecord& a, const RunRecord& b, const Placement* but = nullptr) {
+  return std::all_of(data.the_case.placements.begin(), data.the_case.placements.end(),
+                     [&](const Placement& p) { return &p == but || placed_at_m(p, a) == placed_at_m(p, b); });
+}
+
 /// Sorts runs into lists by a criterion of likeness, keeping lists in which `differs` is met at least once.
 template <class Alike>
 std::vector<std::vector<const AnalysedRun*>> group_alike(const ReportData& data, Alike alike) {
@@ -42,7 +47,7 @@ std::vector<std::pair<const AnalysedRun*, const AnalysedRun*>> wall_pairs(const 
       const RunRecord& a = data.runs[i].record;
       const RunRecord& b = data.runs[j].record;
       if (a.solver == b.solver && a.l0_m == b.l0_m && same_alpha(a, b) && same_end(a, b) && a.walls != b.walls &&
-          !a.walls.empty() && !b.walls.empty())
+          !a.walls.empty() && !b.walls.empty() && same_places(data, a, b))
         pairs.emplace_back(&data.runs[i], &data.runs[j]);
     }
   return pairs;
@@ -50,8 +55,9 @@ std::vector<std::pair<const AnalysedRun*, const AnalysedRun*>> wall_pairs(const 
 
 std::vector<AlphaSeries> alpha_series(const ReportData& data) {
   std::vector<AlphaSeries> out;
-  for (auto& runs : group_alike(data, [](const RunRecord&a, const RunRecord&b) {
-         return a.solver == b.solver && a.walls == b.walls && a.l0_m == b.l0_m && same_end(a, b);
+  for (auto& runs : group_alike(data, [&](const RunRecord&a, const RunRecord&b) {
+         return a.solver == b.solver && a.walls == b.walls && a.l0_m == b.l0_m && same_end(a, b) &&
+                same_places(data, a, b);
        })) {
     std::erase_if(runs, [](const AnalysedRun* run) { return !run->record.alpha(); });
     std::stable_sort(runs.begin(), runs.end(),
@@ -64,8 +70,9 @@ std::vector<AlphaSeries> alpha_series(const ReportData& data) {
 
 std::vector<ResolutionSeries> resolution_series(const ReportData& data) {
   std::vector<ResolutionSeries> out;
-  for (auto& runs : group_alike(data, [](const RunRecord&a, const RunRecord&b) {
-         return a.solver == b.solver && a.walls == b.walls && same_alpha(a, b) && same_end(a, b);
+  for (auto& runs : group_alike(data, [&](const RunRecord&a, const RunRecord&b) {
+         return a.solver == b.solver && a.walls == b.walls && same_alpha(a, b) && same_end(a, b) &&
+                same_places(data, a, b);
        })) {
     std::stable_sort(runs.begin(), runs.end(), [](auto* a, auto* b) { return a->record.l0_m > b->record.l0_m; });
     // Of two runs at one resolution the first stands for it: an order needs one value each.
@@ -75,6 +82,41 @@ std::vector<ResolutionSeries> resolution_series(const ReportData& data) {
     const auto alpha = runs.front()->record.alpha();
     out.push_back({runs.front()->group + (alpha ? fmt::format(", α = {}", shortest(*alpha)) : ""), runs});
   }
+  return out;
+}
+
+double placed_at_m(const Placement& placement, const RunRecord& run) {
+  return run.number("parameters." + placement.name).value_or(placement.drawn_m);
+}
+
+std::vector<Obstacle> placed_obstacles(const Case& c, const RunRecord& run) {
+  std::vector<Obstacle> obstacles = c.obstacles;
+  for (const Placement& placement : c.placements)
+    for (Obstacle& obstacle : obstacles)
+      if (std::find(placement.moves.begin(), placement.moves.end(), obstacle.name) != placement.moves.end())
+        obstacle.box = shifted(obstacle.box, (placed_at_m(placement, run) - placement.drawn_m) * placement.along);
+  return obstacles;
+}
+
+std::vector<PlacementSeries> placement_series(const ReportData& data) {
+  std::vector<PlacementSeries> out;
+  for (const Placement& placement : data.the_case.placements)
+    for (auto& runs : group_alike(data, [&](const RunRecord&a, const RunRecord&b) {
+           return a.solver == b.solver && a.walls == b.walls && a.l0_m == b.l0_m && same_alpha(a, b) &&
+                  same_end(a, b) && same_places(data, a, b, &placement);
+         })) {
+      std::stable_sort(runs.begin(), runs.end(), [&](auto* a, auto* b) {
+        return placed_at_m(placement, a->record) < placed_at_m(placement, b->record);
+      });
+      if (runs.size() < 2 ||
+          placed_at_m(placement, runs.front()->record) == placed_at_m(placement, runs.back()->record))
+        continue;
+      const auto alpha = runs.front()->record.alpha();
+      out.push_back({placement.name,
+                     fmt::format("{}, l0 = {:g} mm{}", runs.front()->group, 1000 * runs.front()->record.l0_m,
+                                 alpha ? fmt::format(", α = {}", shortest(*alpha)) : ""),
+                     runs});
+    }
   return out;
 }
 

@@ -27,6 +27,18 @@ struct ResolutionSeries {
 };
 std::vector<ResolutionSeries> resolution_series(const ReportData& data);
 
+/// Runs alike in all but one length that the case leaves open, at least two of them, smallest first.
+struct PlacementSeries {
+  std::string placement;
+  std::string title;
+  std::vector<const AnalysedRun*> runs;
+};
+std::vector<PlacementSeries> placement_series(const ReportData& data);
+/// The value at which a run has it [m].
+double placed_at_m(const Placement& placement, const RunRecord& run);
+/// The case's obstacles where a run placed them.
+std::vector<Obstacle> placed_obstacles(const Case& c, const RunRecord& run);
+
 struct ResolutionPoint {
   double l0_m = 0;
   double value = 0;  ///< of the simulated quantity itself, whose convergence is looked at

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ struct MadeForceRun {
   double second_scale = 0.9;  ///< of the other route
   double shift_s = 0.0;
   double noise_N = 0.0;  ///< a fixed 90 Hz tone on forces
+  std::map<std::string, double> placements{};
 };
 void write_force_run(const std::filesystem::path& directory, const MadeForceRun& run);
 

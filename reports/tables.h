@@ -41,6 +41,9 @@ Table force_impulses_table(const ReportData& data, const std::string& sensor);
 /// Peak, impulse and noise of every force against the artificial viscosity.
 Table force_alpha_table(const ReportData& data);
 
+/// What a length that the case leaves open does to the headline sensors; no rows without two values of one.
+Table placements_table(const ReportData& data);
+
 /// How much fluid the kernel probe saw: share of the time after the measured arrival in which it could read at all.
 Table kernel_support_table(const ReportData& data);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/quantity.h"
 #include "reports/studies.h"
 #include "reports/tables.h"
 #include "reports/text.h"
@@ -181,6 +182,37 @@ Table early_runs_table(const ReportData& data) {
       "Impulses: signed deviation from the measured impulse over the same time. These numbers enter no ranking, no "
       "figure "
       "and no acceptance row: a run that stopped early has not shown what comes after.");
+  return table;
+}
+
+Table placements_table(const ReportData& data) {
+  Table table;
+  table.name = "placements";
+  table.caption = "What lengths that the case's sources leave open do to the result, primary readings";
+  table.columns = {{"Run", "run", false}, {"Length", "length", false}, {"[m]", "length_m"}};
+  const std::vector<std::string> sensors = data.headline_sensors();
+  for (const std::string& sensor : sensors) {
+    const Quantity& q = quantity_of(data.the_case.find_sensor(sensor)->kind);
+    table.columns.push_back({sensor + " arrival [s]", sensor + "_arrival_s"});
+    table.columns.push_back({fmt::format("{} 10 ms mean peak [{}]", sensor, q.unit), sensor + "_smoothed_peak"});
+    table.columns.push_back({fmt::format("{} impulse [{}]", sensor, q.impulse_unit), sensor + "_impulse"});
+  }
+  for (const PlacementSeries& series : placement_series(data)) {
+    table.add_group(series.title);
+    for (const AnalysedRun* run : series.runs) {
+      const double at_m = placed_at_m(*data.the_case.find_placement(series.placement), run->record);
+      std::vector<TableCell> cells = {word(run->label), word(series.placement), typed(at_m)};
+      for (const std::string& sensor : sensors) {
+        const SensorReading* reading = run->primary(sensor);
+        const Comparison c = reading == nullptr ? Comparison{} : reading->comparison;
+        const int decimals = quantity_of(data.the_case.find_sensor(sensor)->kind).decimals;
+        cells.push_back(number(c.arrival_s.simulated, 3));
+        cells.push_back(number(c.smoothed_peak.simulated, decimals));
+        cells.push_back(number(c.impulse.simulated, decimals));
+      }
+      table.add(std::move(cells));
+    }
+  }
   return table;
 }
 

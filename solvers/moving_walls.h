@@ -17,7 +17,8 @@ class MovingWalls {
   /// How far the body that moves most goes between two times   [m]
   double travel_m(double from_s, double to_s) const;
 
-  /// Calls visit(wall, position, velocity) for every particle of a body that moves; `wall` is its place in Scene::walls.
+  /// Calls visit(wall, position, velocity) for every particle of a body that moves; `wall` is its place in
+  /// Scene::walls.
   template <class Visit>
   void for_each(double t_s, Visit&& visit) const {
     for (const Particle& p : particles_) {

@@ -20,8 +20,8 @@ Box core(const Obstacle& o, const Box& tank, double tolerance) {
   return b;
 }
 
-/// Moves a point inside a box to its nearest side, top, or bottom where it `has_bottom`, and takes the velocity into the
-/// box.
+/// Moves a point inside a box to its nearest side, top, or bottom where it `has_bottom`, and takes the velocity into
+/// the box.
 void push_out(const Box& b, bool has_bottom, Vec3d& p, Vec3d& u) {
   const double x = std::min(p.x - b.lower.x, b.upper.x - p.x);
   const double y = std::min(p.y - b.lower.y, b.upper.y - p.y);

@@ -38,7 +38,8 @@ class Tank {
   /// to half of one, and loses its velocity into the wall (relative to it, where it moves). Returns whether it was.
   bool hold(Vec3d& p_m, Vec3d& u_m_s) const;
 
-  /// Holds every wall particle, on all its way, and all positions that are `inside` with one particle distance to spare.
+  /// Holds every wall particle, on all its way, and all positions that are `inside` with one particle distance to
+  /// spare.
   const Box& domain() const { return domain_; }
 
   /// The face of the tank or of an obstacle at rest on which a point lies (the nearest one).
@@ -49,8 +50,8 @@ class Tank {
   Face nearest_face(const Vec3d& point_m) const;
 
  private:
-  Box inside_;               ///< tank grown by the tolerance, up to the domain's top
-  double rim_m_;             ///< where the upper edge of the walls begins
+  Box inside_;    ///< tank grown by the tolerance, up to the domain's top
+  double rim_m_;  ///< where the upper edge of the walls begins
   std::vector<Solid> solids_;
   double half_m_;            ///< half a particle distance
   std::vector<Box> bodies_;  ///< fitted tank and the obstacles that do not move

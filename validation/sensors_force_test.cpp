@@ -63,7 +63,7 @@ TEST_P(StillWater, BothRoutesGiveTheExactForce) {
   std::vector<std::unique_ptr<Sensor>> sensors;
   for (const Wall& wall : walls) {
     CaseSensor s;
-    s.name = "F";
+    s.name = std::string("F");
     s.kind = SensorKind::force;
     s.body = wall.body;
     const bool along_x = wall.face[0] == 'x';

@@ -2,6 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "reports/analysis.h"
@@ -37,6 +41,12 @@ std::vector<Picture> impact_figures(const FigureMaker& maker, SensorKind kind);
 std::vector<Picture> route_figures(const FigureMaker& maker);
 /// The case's boxes at the start in plan and elevation, with their lengths.
 std::vector<Picture> geometry_figures(const FigureMaker& maker);
+
+/// One curve for each series of runs that differ in alpha alone: what `measure` says of the sensor's primary reading.
+PlotPanel alpha_panel(const ReportData& data, const std::string& sensor, const std::string& y_label,
+                      const std::function<std::optional<double>(const Comparison&)>& measure);
+/// The alphas in a panel, and a little more on both sides.
+std::pair<double, double> alpha_range(const PlotPanel& panel);
 
 /// Impulse deviations of every run beside the paper's, at the headline sensors.
 std::vector<Picture> impulse_figures(const FigureMaker& maker);

@@ -7,12 +7,6 @@
 #include "reports/studies.h"
 
 namespace sluice {
-namespace {
-
-constexpr double smoothing_s = 0.01;
-
-}  // namespace
-
 std::vector<Picture> route_figures(const FigureMaker& maker) {
   std::vector<Picture> pictures;
   if (!maker.enabled) return pictures;
@@ -49,34 +43,14 @@ std::vector<Picture> route_figures(const FigureMaker& maker) {
 
 namespace {
 
-using Measure = std::optional<double> (*)(const Comparison&);
-
-PlotPanel alpha_panel(const ReportData& data, const std::string& sensor, const std::string& y_label, Measure measure) {
-  PlotPanel panel;
-  panel.x_label = "artificial viscosity α";
-  panel.y_label = y_label;
-  panel.log_x = true;
+/// A series of one point shows nothing.
+PlotPanel force_alpha_panel(const ReportData& data, const std::string& sensor, const std::string& y_label,
+                            const std::function<std::optional<double>(const Comparison&)>& measure) {
+  PlotPanel panel = alpha_panel(data, sensor, y_label, measure);
   panel.y_range = {0.0, std::nullopt};
-  double low = 1e300;
-  double high = 0;
-  int style = 0;
-  for (const AlphaSeries& series : alpha_series(data)) {
-    PlotCurve curve;
-    curve.label = series.title;
-    curve.style = style++;
-    curve.every_point = true;
-    for (const AnalysedRun* run : series.runs) {
-      const SensorReading* reading = run->primary(sensor);
-      const auto value = reading == nullptr ? std::nullopt : measure(reading->comparison);
-      if (!value) continue;
-      curve.x.push_back(*run->record.alpha());
-      curve.y.push_back(*value);
-      low = std::min(low, curve.x.back());
-      high = std::max(high, curve.x.back());
-    }
-    if (curve.x.size() > 1) panel.curves.push_back(std::move(curve));
-  }
-  if (!panel.curves.empty()) panel.x_range = {low / 1.6, high * 1.6};
+  const auto range = alpha_range(panel);
+  std::erase_if(panel.curves, [](const PlotCurve& curve) { return curve.x.size() < 2; });
+  if (!panel.curves.empty()) panel.x_range = range;
   return panel;
 }
 
@@ -90,9 +64,9 @@ std::vector<Picture> force_alpha_figures(const FigureMaker& maker) {
     figure.name = "force_alpha_" + sensor;
     figure.source = "primary readings";
     figure.panels = {
-        alpha_panel(maker.data, sensor, "peak after 10 ms mean [N]",
-                    [](const Comparison& c) { return c.smoothed_peak.simulated; }),
-        alpha_panel(maker.data, sensor, "noise [N]", [](const Comparison& c) { return c.noise.simulated; })};
+        force_alpha_panel(maker.data, sensor, "peak after 10 ms mean [N]",
+                          [](const Comparison& c) { return c.smoothed_peak.simulated; }),
+        force_alpha_panel(maker.data, sensor, "noise [N]", [](const Comparison& c) { return c.noise.simulated; })};
     if (figure.panels.front().curves.empty()) continue;
     pictures.push_back(draw_picture(
         maker, figure,

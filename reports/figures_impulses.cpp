@@ -178,10 +178,7 @@ std::vector<Picture> boundary_model_figures(const FigureMaker& maker) {
   return pictures;
 }
 
-namespace {
-
-/// The axis a little wider than the alphas shown, with the line of no deviation across it.
-void frame_alphas(PlotPanel& panel) {
+std::pair<double, double> alpha_range(const PlotPanel& panel) {
   double low = 1e300;
   double high = 0;
   for (const PlotCurve& curve : panel.curves)
@@ -189,15 +186,14 @@ void frame_alphas(PlotPanel& panel) {
       low = std::min(low, alpha);
       high = std::max(high, alpha);
     }
-  panel.x_range = {low / 1.6, high * 1.6};
-  panel.curves.push_back(zero_line(low / 1.6, high * 1.6));
+  return {low / 1.6, high * 1.6};
 }
 
-PlotPanel alpha_panel(const ReportData& data, const std::string& sensor) {
+PlotPanel alpha_panel(const ReportData& data, const std::string& sensor, const std::string& y_label,
+                      const std::function<std::optional<double>(const Comparison&)>& measure) {
   PlotPanel panel;
-  panel.title = sensor;
   panel.x_label = "artificial viscosity α";
-  panel.y_label = "deviation of impulse [%]";
+  panel.y_label = y_label;
   panel.log_x = true;
   int style = 0;
   for (const AlphaSeries& series : alpha_series(data)) {
@@ -207,13 +203,23 @@ PlotPanel alpha_panel(const ReportData& data, const std::string& sensor) {
     curve.every_point = true;
     for (const AnalysedRun* run : series.runs) {
       const SensorReading* reading = run->primary(sensor);
-      const auto deviation = reading == nullptr ? std::nullopt : reading->comparison.impulse.deviation();
-      if (!deviation) continue;
+      const auto value = reading == nullptr ? std::nullopt : measure(reading->comparison);
+      if (!value) continue;
       curve.x.push_back(*run->record.alpha());
-      curve.y.push_back(100 * *deviation);
+      curve.y.push_back(*value);
     }
     panel.curves.push_back(std::move(curve));
   }
+  return panel;
+}
+
+namespace {
+
+/// Runs and paper, with the line of no deviation across.
+PlotPanel impulse_alpha_panel(const ReportData& data, const std::string& sensor) {
+  PlotPanel panel = alpha_panel(data, sensor, "deviation of impulse [%]",
+                                [](const Comparison& c) { return scaled(c.impulse.deviation(), 100); });
+  panel.title = sensor;
   PlotCurve paper;
   paper.label = "paper's WCSPH";
   paper.look = CurveLook::published;
@@ -224,7 +230,8 @@ PlotPanel alpha_panel(const ReportData& data, const std::string& sensor) {
       paper.y.push_back(100 * published_deviation(data, sensor, "wcsph", row.alpha).value_or(NAN));
     }
   if (!paper.x.empty()) panel.curves.push_back(std::move(paper));
-  frame_alphas(panel);
+  panel.x_range = alpha_range(panel);
+  panel.curves.push_back(zero_line(*panel.x_range.first, *panel.x_range.second));
   return panel;
 }
 
@@ -237,7 +244,7 @@ std::vector<Picture> alpha_figures(const FigureMaker& maker) {
     PlotFigure figure;
     figure.name = "alpha_" + sensor;
     figure.source = "primary readings";
-    figure.panels = {alpha_panel(maker.data, sensor)};
+    figure.panels = {impulse_alpha_panel(maker.data, sensor)};
     pictures.push_back(draw_picture(
         maker, figure, fmt::format("Deviation of the impulse at {} against the artificial viscosity.", sensor),
         fmt::format("Deviation of the impulse at {} against alpha, runs and paper", sensor)));

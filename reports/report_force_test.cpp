@@ -8,6 +8,7 @@
 #include "reports/studies.h"
 #include "reports/synthetic_run.h"
 #include "reports/tables.h"
+#include "reports/test_files.h"
 #include "validation/digest.h"
 
 namespace sluice {
@@ -16,19 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using synthetic::MadeForceRun;
 
-std::string read(const fs::path& file) {
-  std::ifstream in(file);
-  EXPECT_TRUE(in) << file;
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-fs::path fresh(const std::string& name) {
-  fs::path path = fs::absolute(fs::path(testing::TempDir()) / ("sluice_report_force_" + name));
-  fs::remove_all(path);
-  return path;
-}
+using test_files::fresh;
+using test_files::read;
 
 const TableCell& cell(const Table& table, const std::string& start, const std::string& csv_name,
                       const std::string& second = "") {
@@ -43,7 +33,7 @@ const TableCell& cell(const Table& table, const std::string& start, const std::s
 }
 
 TEST(ForceTables, KnownScaleAndShiftGiveKnownNumbersByBothRoutes) {
-  const fs::path dir = fresh("known");
+  const fs::path dir = fresh("force_known");
   MadeForceRun run;
   run.scale = 1.1;
   run.second_scale = 0.7;
@@ -64,7 +54,7 @@ TEST(ForceTables, KnownScaleAndShiftGiveKnownNumbersByBothRoutes) {
 }
 
 TEST(ForceTables, MeanOfTheBandLiesInsideIt) {
-  const fs::path dir = fresh("band");
+  const fs::path dir = fresh("force_band");
   synthetic::write_force_run(dir, {});
   const Table table = force_impulses_table(analyse({dir}), "F_column");
   EXPECT_GT(*cell(table, "R1", "inside_band_percent", "acceleration").value, 75);
@@ -72,8 +62,8 @@ TEST(ForceTables, MeanOfTheBandLiesInsideIt) {
 }
 
 TEST(ForceTables, AcceptanceOfTheColumn) {
-  const fs::path good = fresh("accept_good");
-  const fs::path bad = fresh("accept_bad");
+  const fs::path good = fresh("force_accept_good");
+  const fs::path bad = fresh("force_accept_bad");
   MadeForceRun run;
   synthetic::write_force_run(good, run);
   run.alpha = 0.001;
@@ -92,7 +82,7 @@ TEST(ForceTables, PeakAndImpulseConvergeOrSayThatTheyDoNot) {
   MadeForceRun run;
   run.case_name = "aureli";
   for (double l0 : {0.04, 0.02, 0.01}) {
-    dirs.push_back(fresh("resolution_" + std::to_string(dirs.size())));
+    dirs.push_back(fresh("force_resolution_" + std::to_string(dirs.size())));
     run.l0_m = l0;
     run.scale = 1 + 100 * l0 * l0;
     synthetic::write_force_run(dirs.back(), run);
@@ -108,9 +98,9 @@ TEST(ForceTables, PeakAndImpulseConvergeOrSayThatTheyDoNot) {
 }
 
 TEST(ForceTables, StatementsOnTheForceNeedAMeasurementOrNot) {
-  const fs::path viscous = fresh("statement_viscous");
-  const fs::path thin = fresh("statement_thin");
-  const fs::path mps = fresh("statement_mps");
+  const fs::path viscous = fresh("force_statement_viscous");
+  const fs::path thin = fresh("force_statement_thin");
+  const fs::path mps = fresh("force_statement_mps");
   MadeForceRun run;
   run.case_name = "aureli";
   run.l0_m = 0.01;
@@ -132,8 +122,8 @@ TEST(ForceTables, StatementsOnTheForceNeedAMeasurementOrNot) {
 }
 
 TEST(ForceTables, LengthsThatSourcesLeaveOpenHaveTheirTableAndAreNoResolutionOrAlpha) {
-  const fs::path near = fresh("placement_near");
-  const fs::path far = fresh("placement_far");
+  const fs::path near = fresh("force_placement_near");
+  const fs::path far = fresh("force_placement_far");
   MadeForceRun run;
   run.case_name = "aureli";
   run.l0_m = 0.02;
@@ -164,7 +154,7 @@ class UsersMeasurement : public testing::Test {
  protected:
   void SetUp() override {
     before_ = fs::current_path();
-    folder_ = fresh("user");
+    folder_ = fresh("force_user");
     fs::create_directories(folder_ / "data");
     fs::copy(resolve_in_source_tree("data/aureli2015"), folder_ / "data/aureli2015", fs::copy_options::recursive);
     fs::remove(folder_ / "data/aureli2015/digest.csv");
@@ -208,9 +198,9 @@ TEST_F(UsersMeasurement, IsMissingUntilAFileOfTheStatedFormIsThere) {
 }
 
 TEST(ForceReport, LeavesOutWhatTheCaseHasNot) {
-  const fs::path run = fresh("whole_run");
-  const fs::path other = fresh("whole_other");
-  const fs::path out = fresh("whole_out");
+  const fs::path run = fresh("force_whole_run");
+  const fs::path other = fresh("force_whole_other");
+  const fs::path out = fresh("force_whole_out");
   MadeForceRun made;
   synthetic::write_force_run(run, made);
   made.alpha = 0.1;
@@ -231,8 +221,8 @@ TEST(ForceReport, LeavesOutWhatTheCaseHasNot) {
 }
 
 TEST(ForceReport, OfTheUnmeasuredCaseSaysSoAndNumbersThePapersTable) {
-  const fs::path run = fresh("aureli_run");
-  const fs::path out = fresh("aureli_out");
+  const fs::path run = fresh("force_aureli_run");
+  const fs::path out = fresh("force_aureli_out");
   MadeForceRun made;
   made.case_name = "aureli";
   made.l0_m = 0.02;

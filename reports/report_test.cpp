@@ -8,6 +8,7 @@
 
 #include "reports/synthetic_run.h"
 #include "reports/tables.h"
+#include "reports/test_files.h"
 
 namespace sluice {
 namespace {
@@ -15,19 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using synthetic::MadeRun;
 
-std::string read(const fs::path& file) {
-  std::ifstream in(file);
-  EXPECT_TRUE(in) << file;
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-fs::path fresh(const std::string& name) {
-  const fs::path path = fs::path(testing::TempDir()) / ("sluice_report_" + name);
-  fs::remove_all(path);
-  return path;
-}
+using test_files::fresh;
+using test_files::read;
 
 std::size_t column_of(const Table& table, const std::string& csv_name) {
   for (std::size_t i = 0; i < table.columns.size(); ++i)

@@ -12,10 +12,6 @@ namespace sluice {
 
 namespace {
 
-void append(ReportSection& section, const std::vector<Picture>& pictures) {
-  for (const Picture& picture : pictures) section.blocks.push_back(picture);
-}
-
 ReportSection summary_section(const ReportData& data) {
   ReportSection section{"summary", "Summary", {}};
   section.blocks.push_back(BulletList{findings(data)});

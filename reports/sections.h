@@ -19,6 +19,10 @@ inline Paragraph hint(std::string text) {
   return {std::move(text), true};
 }
 
+inline void append(ReportSection& section, const std::vector<Picture>& pictures) {
+  for (const Picture& picture : pictures) section.blocks.push_back(picture);
+}
+
 /// What the sensors saw, a section for each kind that the case has.
 void add_sensor_sections(std::vector<ReportSection>& sections, const FigureMaker& maker);
 

@@ -6,10 +6,6 @@
 namespace sluice {
 namespace {
 
-void append(ReportSection& section, const std::vector<Picture>& pictures) {
-  for (const Picture& picture : pictures) section.blocks.push_back(picture);
-}
-
 void add_early_runs(ReportSection& section, const ReportData& data) {
   Table early = early_runs_table(data);
   if (!early.rows.empty()) section.blocks.push_back(std::move(early));

@@ -12,7 +12,6 @@ namespace sluice {
 namespace {
 
 constexpr double most_bins = 700;
-constexpr double smoothing_s = 0.01;
 
 /// Which reading of a run a figure shows: a model, or the primary one when empty.
 const SensorReading* reading_of(const AnalysedRun& run, const std::string& sensor, const std::string& model) {

@@ -10,6 +10,9 @@
 
 namespace sluice {
 
+/// Width of the running mean in long views of what has spikes   [s]
+inline constexpr double smoothing_s = 0.01;
+
 /// Which runs leave a panel through its top, in words for the caption.
 struct Cut {
   double limit = 0;

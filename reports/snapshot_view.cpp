@@ -123,10 +123,8 @@ class Shares {
 }  // namespace
 
 std::optional<Box> obstacle_at(const Obstacle& obstacle, double t_s, const Box& tank) {
-  Box box = obstacle.box;
-  if (!obstacle.motion.moves()) return box;
-  box.lower += obstacle.motion.displacement_m(t_s);
-  box.upper += obstacle.motion.displacement_m(t_s);
+  if (!obstacle.motion.moves()) return obstacle.box;
+  Box box = shifted(obstacle.box, obstacle.motion.displacement_m(t_s));
   box.upper.z = std::min(box.upper.z, tank.upper.z);
   if (box.lower.z >= box.upper.z) return std::nullopt;
   return box;

@@ -91,10 +91,7 @@ double placed_at_m(const Placement& placement, const RunRecord& run) {
 
 std::vector<Obstacle> placed_obstacles(const Case& c, const RunRecord& run) {
   std::vector<Obstacle> obstacles = c.obstacles;
-  for (const Placement& placement : c.placements)
-    for (Obstacle& obstacle : obstacles)
-      if (std::find(placement.moves.begin(), placement.moves.end(), obstacle.name) != placement.moves.end())
-        obstacle.box = shifted(obstacle.box, (placed_at_m(placement, run) - placement.drawn_m) * placement.along);
+  for (const Placement& placement : c.placements) place(obstacles, placement, placed_at_m(placement, run));
   return obstacles;
 }
 
@@ -146,28 +143,23 @@ ResolutionQuantity value(const std::string& name, int decimals, const Resolution
   return out;
 }
 
-std::optional<double> times(std::optional<double> value, double factor) {
-  if (value) *value *= factor;
-  return value;
-}
-
 }  // namespace
 
 std::vector<ResolutionQuantity> resolution_quantities(const ReportData& data, const ResolutionSeries& series) {
   std::vector<ResolutionQuantity> out;
   for (const std::string& sensor : data.headline_sensors())
     out.push_back(quantity(sensor + " impulse [%]", 1, series, sensor, [](const Comparison& c) {
-      return std::pair(c.impulse.simulated, times(c.impulse.deviation(), 100));
+      return std::pair(c.impulse.simulated, scaled(c.impulse.deviation(), 100));
     }));
   if (!data.headline_sensors().empty()) {
     const std::string first = data.headline_sensors().front();
     out.push_back(quantity(first + " arrival [ms]", 0, series, first, [](const Comparison& c) {
-      return std::pair(c.arrival_s.simulated, times(c.arrival_s.difference(), 1000));
+      return std::pair(c.arrival_s.simulated, scaled(c.arrival_s.difference(), 1000));
     }));
   }
   for (const std::string& sensor : data.sensors(SensorKind::wave_height))
     out.push_back(quantity(sensor + " RMSE / range [%]", 1, series, sensor,
-                           [](const Comparison& c) { return std::pair(c.rmse, times(c.rmse_over_range, 100)); }));
+                           [](const Comparison& c) { return std::pair(c.rmse, scaled(c.rmse_over_range, 100)); }));
   for (const std::string& sensor : data.sensors(SensorKind::force)) {
     out.push_back(value(sensor + " peak, 10 ms mean [N]", 2, series, sensor,
                         [](const Comparison& c) { return c.smoothed_peak.simulated; }));

@@ -9,11 +9,6 @@
 namespace sluice {
 namespace {
 
-std::optional<double> scaled(std::optional<double> value, double factor) {
-  if (value) *value *= factor;
-  return value;
-}
-
 const int decimals = quantity_of(SensorKind::force).decimals;
 
 /// Rows of one sensor: the experiment, then each run by both routes, one under the other.

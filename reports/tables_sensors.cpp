@@ -10,11 +10,6 @@ namespace sluice {
 
 namespace {
 
-std::optional<double> scaled(std::optional<double> value, double factor) {
-  if (value) *value *= factor;
-  return value;
-}
-
 std::vector<TableColumn> metric_columns(SensorKind kind) {
   const std::string unit(unit_of(kind));
   auto with_unit = [&](const std::string& name) { return fmt::format("{} [{}]", name, quantity_of(kind).unit); };

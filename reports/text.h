@@ -8,6 +8,12 @@
 
 namespace sluice {
 
+/// A value in another unit; what is missing stays so.
+inline std::optional<double> scaled(std::optional<double> value, double factor) {
+  if (value) *value *= factor;
+  return value;
+}
+
 /// `decimals` digits after the point, with a typographic minus.
 std::string fixed(double value, int decimals);
 /// `digits` significant digits; powers of ten as "5.2·10⁻³" outside 1e-3 .. 1e6.

@@ -24,9 +24,18 @@ inline bool holds_inside(const Box& b, const Vec3d& p) {
   return p.x > b.lower.x && p.x < b.upper.x && p.y > b.lower.y && p.y < b.upper.y && p.z > b.lower.z && p.z < b.upper.z;
 }
 
-/// Whether two boxes have more than a face in common, up to a micrometre.
+/// Drawn lengths that differ by no more are the same: they are given to a tenth of a millimetre at best.
+inline constexpr double drawn_tolerance_m = 1e-6;
+
+/// A box with every face moved outwards.
+inline Box grown(const Box& b, double by_m) {
+  const Vec3d by{by_m, by_m, by_m};
+  return {b.lower - by, b.upper + by};
+}
+
+/// Whether two boxes have more than a face in common.
 inline bool share_volume(const Box& a, const Box& b) {
-  constexpr double e = 1e-6;
+  constexpr double e = drawn_tolerance_m;
   return a.lower.x < b.upper.x - e && b.lower.x < a.upper.x - e && a.lower.y < b.upper.y - e &&
          b.lower.y < a.upper.y - e && a.lower.z < b.upper.z - e && b.lower.z < a.upper.z - e;
 }

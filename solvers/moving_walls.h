@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "solvers/fields.h"
 #include "solvers/scene.h"
 
 namespace sluice {
@@ -35,23 +34,6 @@ class MovingWalls {
   };
   std::vector<RigidMotion> motions_;
   std::vector<Particle> particles_;
-};
-
-/// Wall particles of one kind in the order of Scene::walls, from which every sort starts, so that the sorted order at a
-/// time does not depend on the sorts before.
-struct WallOrigin {
-  std::vector<std::int32_t> walls;  ///< places in Scene::walls
-  VectorField<double> position;     ///< at the start   [m]
-
-  /// Chooses the particles for which `chosen(particle)` holds.
-  template <class Chosen>
-  WallOrigin(const Scene& scene, Chosen&& chosen) {
-    for (std::size_t k = 0; k < scene.walls.size(); ++k)
-      if (chosen(scene.walls[k])) walls.push_back(static_cast<std::int32_t>(k));
-    position.resize(walls.size());
-    for (std::size_t k = 0; k < walls.size(); ++k)
-      position.set(k, scene.walls[static_cast<std::size_t>(walls[k])].position);
-  }
 };
 
 }  // namespace sluice

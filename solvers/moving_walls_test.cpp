@@ -19,9 +19,9 @@ constexpr double depth_m = 0.12;
 /// A gate across the whole tank, with water on one side of it.
 SceneDescription gated_tank(double start_s, int layers) {
   SceneDescription d;
-  d.tank = {{0, 0, 0}, {0.6, 0.16, 0.24}};
-  d.fluid = {{{0, 0, 0}, {0.24, 0.16, depth_m}}};
-  Obstacle gate{.box = {{0.24, 0, 0}, {0.25, 0.16, 0.24}}, .name = "gate", .thin = true};
+  d.tank = {{0, 0, 0}, {0.6, 0.08, 0.24}};
+  d.fluid = {{{0, 0, 0}, {0.24, 0.08, depth_m}}};
+  Obstacle gate{.box = {{0.24, 0, 0}, {0.25, 0.08, 0.24}}, .name = "gate", .thin = true};
   gate.motion = {{0, 0, 1.25}, start_s, std::numeric_limits<double>::infinity()};
   d.obstacles = {gate};
   d.particle_distance_m = l0;
@@ -39,7 +39,7 @@ std::unique_ptr<Solver> make(const std::string& solver, const Scene& scene, int 
   wcsph::Parameters p;
   p.particle_distance_m = l0;
   p.water_height_m = depth_m;
-  p.speed_of_sound_m_s = 20 * std::sqrt(9.81 * depth_m);
+  p.speed_of_sound_m_s = 10 * std::sqrt(9.81 * depth_m);
   p.wall_friction = 0;
   p.walls = solver == "wcsph-dynamic" ? wcsph::WallModel::dynamic : wcsph::WallModel::extrapolated;
   return make_wcsph_solver(scene, p, threads);

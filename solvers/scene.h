@@ -40,14 +40,6 @@ struct FittedLength {
   double fitted_m = 0;
 };
 
-/// The six faces of a body, as bits of a set, named by their normals into the fluid: the tank's face x+ is its wall at
-/// lower x, an obstacle's face x+ is the one at upper x.
-using FaceSet = std::uint8_t;
-constexpr FaceSet face_bit(int axis, bool upwards) {
-  return static_cast<FaceSet>(1U << static_cast<unsigned>(2 * axis + (upwards ? 1 : 0)));
-}
-constexpr FaceSet all_faces = 63;
-
 struct WallParticle {
   Vec3d position;
   int layer = 0;  ///< 0 touches the fluid

@@ -86,23 +86,24 @@ void SceneLattice::require_cells(const CellBox& c, const std::string& name) cons
   }
 }
 
-CellBox SceneLattice::nearest(const Box& b, const std::string& name) const {
+CellBox SceneLattice::rounded(const Box& b) const {
   CellBox c;
   for (int a = 0; a < 3; ++a) {
     c.lower[a] = std::llround(in_cells(component(b.lower, a), a));
     c.upper[a] = std::llround(in_cells(component(b.upper, a), a));
   }
+  return c;
+}
+
+CellBox SceneLattice::nearest(const Box& b, const std::string& name) const {
+  const CellBox c = rounded(b);
   require_cells(c, name);
   return c;
 }
 
 CellBox SceneLattice::nearest(const Obstacle& o, const std::string& name) const {
   if (!o.thin) return nearest(o.box, name);
-  CellBox c;
-  for (int a = 0; a < 3; ++a) {
-    c.lower[a] = std::llround(in_cells(component(o.box.lower, a), a));
-    c.upper[a] = std::llround(in_cells(component(o.box.upper, a), a));
-  }
+  CellBox c = rounded(o.box);
   for (int a = 0; a < 3; ++a)
     if (c.upper[a] - c.lower[a] < least_plate_cells) thicken(c, o.box, a);
   return c;

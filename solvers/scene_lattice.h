@@ -45,6 +45,7 @@ class SceneLattice {
  private:
   double in_cells(double x_m, int axis) const;
   void require_cells(const CellBox& c, const std::string& name) const;
+  CellBox rounded(const Box& b) const;
   CellBox nearest(const Box& b, const std::string& name) const;
   CellBox nearest(const Obstacle& o, const std::string& name) const;
   CellBox best_volume(const Box& b, const std::string& name) const;

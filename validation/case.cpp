@@ -24,10 +24,6 @@ double shortest_side(const Box& box) {
   return std::min({box.upper.x - box.lower.x, box.upper.y - box.lower.y, box.upper.z - box.lower.z});
 }
 
-}  // namespace
-
-namespace {
-
 struct KindFacts {
   std::string_view name;
   std::string_view unit;
@@ -45,6 +41,12 @@ const KindFacts& facts_of(SensorKind kind) {
 }
 
 }  // namespace
+
+const std::vector<SensorKind>& sensor_kinds() {
+  static const std::vector<SensorKind> kinds{SensorKind::pressure, SensorKind::wave_height, SensorKind::force,
+                                             SensorKind::velocity};
+  return kinds;
+}
 
 std::string_view to_string(SensorKind kind) {
   return facts_of(kind).name;
@@ -139,6 +141,13 @@ std::string particle_distance_problem(const Case& c, double l0_m) {
   if (3 * l0_m <= shortest * (1 + 1e-9)) return "";
   return fmt::format("is {} m, too large for a length of {:g} m in the geometry (use {:g} m or less)", l0_m, shortest,
                      std::floor(1e4 * shortest / 3) / 1e4);
+}
+
+void place(std::vector<Obstacle>& obstacles, const Placement& placement, double value_m) {
+  const Vec3d by = (value_m - placement.drawn_m) * placement.along;
+  for (Obstacle& o : obstacles)
+    if (std::find(placement.moves.begin(), placement.moves.end(), o.name) != placement.moves.end())
+      o.box = shifted(o.box, by);
 }
 
 SceneDescription scene_description(const Case& c, double l0_m, int wall_layers) {

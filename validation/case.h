@@ -31,6 +31,9 @@ struct BodyFace {
 
 enum class SensorKind { pressure, wave_height, force, velocity };
 
+/// All of them.
+const std::vector<SensorKind>& sensor_kinds();
+
 std::string_view to_string(SensorKind kind);
 
 /// A closed interval of time [s].
@@ -222,6 +225,9 @@ std::string primary_model(const Case& c, const CaseSensor& sensor, std::string_v
 /// What is wrong with a particle distance [m] for this case, with the largest that would do; empty when it will do.
 /// Every obstacle and the deepest body of fluid must be at least three particles across, thin obstacles apart.
 std::string particle_distance_problem(const Case& c, double l0_m);
+
+/// Displaces those of the obstacles, which stand as drawn, that a placement moves to its value [m].
+void place(std::vector<Obstacle>& obstacles, const Placement& placement, double value_m);
 
 /// The case's geometry for one particle distance [m] and number of wall layers.
 SceneDescription scene_description(const Case& c, double l0_m, int wall_layers);

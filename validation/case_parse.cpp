@@ -21,9 +21,6 @@ using case_parse::one_of;
 using case_parse::parse_unit_vector;
 using case_parse::refuse_repeated_name;
 
-// Lengths are given to a tenth of a millimetre at best.
-constexpr double same_length_m = 1e-6;
-
 Box parse_box(TomlReader& reader) {
   Box box{reader.vec3("lower_m"), reader.vec3("upper_m")};
   if (box.lower.x >= box.upper.x || box.lower.y >= box.upper.y || box.lower.z >= box.upper.z)
@@ -109,7 +106,7 @@ void parse_fluid_constants(TomlReader& root, Case& c) {
   c.water_height_m = root.positive_number("water_height_m");
   double highest = 0;
   for (const Box& fluid : c.fluid) highest = std::max(highest, fluid.upper.z - c.tank.lower.z);
-  if (std::abs(highest - c.water_height_m) > same_length_m)
+  if (std::abs(highest - c.water_height_m) > drawn_tolerance_m)
     root.fail("water_height_m",
               fmt::format("is {} m, but the fluid in geometry.fluid stands {} m high (make them agree)",
                           c.water_height_m, highest));

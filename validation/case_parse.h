@@ -23,8 +23,7 @@ void refuse_repeated_name(const TomlReader& reader, const std::vector<T>& items,
     if (item.name == name) reader.fail("name", "`" + name + "` occurs twice (give each its own name)");
 }
 
-/// Whether a point lies in a box or on its faces, to a micrometre: positions are given to a tenth of a millimetre at
-/// best.
+/// Whether a point lies in a box or on its faces, as far as drawn lengths tell.
 bool inside(const Box& box, const Vec3d& p);
 
 /// The key's text, which must be one of the choices.

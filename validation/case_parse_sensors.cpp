@@ -3,26 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "validation/case_parse.h"
 
 namespace sluice::case_parse {
 namespace {
 
-// Positions are given to a tenth of a millimetre at best.
-constexpr double position_tolerance_m = 1e-6;
-
-bool strictly_inside(const Box& box, const Vec3d& p) {
-  constexpr double e = position_tolerance_m;
-  return p.x > box.lower.x + e && p.y > box.lower.y + e && p.z > box.lower.z + e && p.x < box.upper.x - e &&
-         p.y < box.upper.y - e && p.z < box.upper.z - e;
-}
-
 void check_sensor_place(const TomlReader& reader, const CaseSensor& sensor, const Case& c) {
   if (!inside(c.tank, sensor.position_m))
     reader.fail("position_m", "lies outside of the tank (give a point inside geometry.tank)");
   for (std::size_t k = 0; k < c.obstacles.size(); ++k)
-    if (strictly_inside(c.obstacles[k].box, sensor.position_m))
+    if (holds_inside(grown(c.obstacles[k].box, -drawn_tolerance_m), sensor.position_m))
       reader.fail("position_m", fmt::format("lies inside geometry.obstacles[{}] (move it to a face)", k));
 }
 
@@ -35,6 +27,13 @@ void check_sensor_name(const TomlReader& reader, const std::string& name, const 
     if (name.starts_with(other.name + "_") || other.name.starts_with(name + "_"))
       reader.fail("name", fmt::format("cannot be told from sensor {} by the columns of probes.csv (choose another)",
                                       other.name));
+}
+
+SensorKind parse_kind(TomlReader& reader) {
+  std::map<std::string, SensorKind> kinds;
+  std::vector<std::string> names;
+  for (const SensorKind kind : sensor_kinds()) kinds[names.emplace_back(to_string(kind))] = kind;
+  return kinds.at(one_of(reader, "kind", names));
 }
 
 BodyFace parse_face(TomlReader& reader) {
@@ -67,9 +66,7 @@ void parse_measured(TomlReader& reader, CaseSensor& sensor) {
 }  // namespace
 
 bool inside(const Box& box, const Vec3d& p) {
-  constexpr double e = position_tolerance_m;
-  return p.x >= box.lower.x - e && p.y >= box.lower.y - e && p.z >= box.lower.z - e && p.x <= box.upper.x + e &&
-         p.y <= box.upper.y + e && p.z <= box.upper.z + e;
+  return holds_point(grown(box, drawn_tolerance_m), p);
 }
 
 Vec3d parse_unit_vector(TomlReader& reader, std::string_view key) {
@@ -84,13 +81,7 @@ CaseSensor parse_sensor(TomlReader& reader, const Case& c) {
   CaseSensor sensor;
   sensor.name = reader.text("name");
   check_sensor_name(reader, sensor.name, c);
-  const std::vector<SensorKind> kinds{SensorKind::pressure, SensorKind::wave_height, SensorKind::force,
-                                      SensorKind::velocity};
-  std::vector<std::string> kind_names;
-  for (const SensorKind kind : kinds) kind_names.emplace_back(to_string(kind));
-  const std::string kind = one_of(reader, "kind", kind_names);
-  sensor.kind =
-      kinds[static_cast<std::size_t>(std::find(kind_names.begin(), kind_names.end(), kind) - kind_names.begin())];
+  sensor.kind = parse_kind(reader);
   if (sensor.kind == SensorKind::force) {
     parse_force(reader, sensor, c);
   } else {

@@ -266,9 +266,9 @@ std::string digest_text(const DigestSource& source, const RawTable& raw) {
 
 }  // namespace
 
-void make_digest(const DigestSource& source, const std::vector<std::filesystem::path>& raw_paths,
+void make_digest(const DigestSource& source, const std::vector<std::filesystem::path>& raw,
                  const std::filesystem::path& out_csv) {
-  const auto text = digest_text(source, read_all(source, raw_paths));
+  const auto text = digest_text(source, read_all(source, raw));
   std::ofstream out(out_csv, std::ios::binary);
   out << text;
   out.close();
@@ -282,9 +282,7 @@ std::vector<std::filesystem::path> make_digests(const std::filesystem::path& dat
   std::vector<std::filesystem::path> made;
   for (const DigestPlan& plan : digest_plans(data_folder)) {
     const auto source = load_digest_source(plan.description);
-    std::vector<std::filesystem::path> raw_paths;
-    for (const RawFile& file : source.files) raw_paths.push_back(raw_root / file.file);
-    make_digest(source, raw_paths, plan.digest);
+    make_digest(source, raw_paths(source, raw_root), plan.digest);
     made.push_back(plan.digest);
   }
   return made;

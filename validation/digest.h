@@ -55,8 +55,11 @@ std::vector<DigestPlan> digest_plans(const std::filesystem::path& data_folder);
 /// The folder of raw data: the environment variable SLUICE_RAW_DATA or, without it, ../shared/data.
 std::filesystem::path raw_data_folder();
 
+/// Where its raw files lie below a folder of raw data.
+std::vector<std::filesystem::path> raw_paths(const DigestSource& source, const std::filesystem::path& raw_root);
+
 /// Reads the raw files and writes the digest: `t_s` (bin centres) and the mean, minimum and maximum of each column in
-/// bins of equal width that start at t = 0. `raw_paths` are as many as source.files.
+/// bins of equal width that start at t = 0. `raw` are as many as source.files.
 ///
 /// Of a recording the mean is the integral of the samples' linear interpolant over the bin, divided by its width, so
 /// that impulses over whole bins survive; a first or last bin that the samples cover by less than nine tenths is left
@@ -65,7 +68,7 @@ std::filesystem::path raw_data_folder();
 /// the ends. Running means are those of the interpolant, through the mean of points at equal times.
 ///
 /// Throws std::runtime_error naming file and line when a raw file is not what the description says.
-void make_digest(const DigestSource& source, const std::vector<std::filesystem::path>& raw_paths,
+void make_digest(const DigestSource& source, const std::vector<std::filesystem::path>& raw,
                  const std::filesystem::path& out_csv);
 
 /// All digests of a data folder from the raw files under `raw_root`. Returns the paths written.

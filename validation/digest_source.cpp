@@ -114,6 +114,12 @@ std::vector<DigestPlan> digest_plans(const fs::path& data_folder) {
   return plans;
 }
 
+std::vector<fs::path> raw_paths(const DigestSource& source, const fs::path& raw_root) {
+  std::vector<fs::path> paths;
+  for (const RawFile& file : source.files) paths.push_back(raw_root / file.file);
+  return paths;
+}
+
 fs::path raw_data_folder() {
   const char* set = std::getenv("SLUICE_RAW_DATA");
   return set && *set ? fs::path(set) : fs::path("../shared/data");

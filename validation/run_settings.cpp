@@ -103,10 +103,7 @@ SceneDescription scene_description(const Case& c, const RunSettings& settings) {
   for (const Placement& placement : c.placements) {
     const auto chosen = settings.parameters.find(placement.name);
     if (chosen == settings.parameters.end() || chosen->second == placement.drawn_m) continue;
-    const Vec3d by = (chosen->second - placement.drawn_m) * placement.along;
-    for (Obstacle& o : d.obstacles)
-      if (std::find(placement.moves.begin(), placement.moves.end(), o.name) != placement.moves.end())
-        o.box = shifted(o.box, by);
+    place(d.obstacles, placement, chosen->second);
     refuse_collision(d, placement.name, chosen->second);
   }
   return d;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "validation/case.h"
 #include "validation/sensors.h"
@@ -139,7 +140,7 @@ class ForceSensor : public Sensor {
 
 class VelocityProbe : public Sensor {
  public:
-  VelocityProbe(const CaseSensor& sensor, std::string primary) : sensor_(sensor), primary_(std::move(primary)) {}
+  VelocityProbe(CaseSensor sensor, std::string primary) : sensor_(std::move(sensor)), primary_(std::move(primary)) {}
 
   void append_columns(std::vector<std::string>& names) const override {
     names.push_back(probe_column(sensor_));

@@ -114,10 +114,12 @@ VectorField<double> wall_normals(const Particles<Pack>& p, const SolidSets& soli
     };
     for (const Run& run : solids.dummies.neighbours(x, 0.0))
       for (auto j = static_cast<std::size_t>(run.begin); j < static_cast<std::size_t>(run.end); ++j) add(j);
-    const int body = solids.moving_body(i);
-    for (const Run& run : solids.walls.neighbours(x, 0.0))
-      for (auto k = static_cast<std::size_t>(run.begin); k < static_cast<std::size_t>(run.end); ++k)
-        if (solids.moving_body(p.first_wall() + k) != body) add(p.first_wall() + k);
+    if (solids.moving_body) {
+      const int body = solids.moving_body(i);
+      for (const Run& run : solids.walls.neighbours(x, 0.0))
+        for (auto k = static_cast<std::size_t>(run.begin); k < static_cast<std::size_t>(run.end); ++k)
+          if (solids.moving_body(p.first_wall() + k) != body) add(p.first_wall() + k);
+    }
     const double length = std::sqrt(dot(sum, sum));
     normals.set(w, length > 0 ? (1 / length) * sum : sum);
   }

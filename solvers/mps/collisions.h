@@ -33,6 +33,7 @@ struct SolidSets {
   const RowIndex& dummies;  ///< particle k is particle k of the run
   const RowIndex& walls;    ///< particle k is particle first_wall() + k
   /// Which body with a motion of its own each wall particle belongs to; 0: none, as all that stand still together.
+  /// Empty where nothing moves.
   std::function<int(std::size_t)> moving_body;
 };
 

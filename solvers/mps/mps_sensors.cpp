@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "solvers/kernel_sums.h"
 #include "solvers/mps/mps_solver.h"
 #include "solvers/mps/terms.h"
 #include "solvers/totals.h"
-#include "solvers/wcsph/kernel.h"
 
 namespace sluice::mps {
 namespace {
@@ -26,6 +26,11 @@ void for_each_near(const Particles<Pack>& p, const SearchSet& set, const Vec3d& 
   }
 }
 
+/// All particles have one volume, l0^3.
+double filled_share(double weights, double l0) {
+  return weights * l0 * l0 * l0;
+}
+
 }  // namespace
 
 /// The sum that the WCSPH solver's sensors use, with the effective radius as kernel radius: sum P_b W_ab / sum W_ab
@@ -33,38 +38,25 @@ void for_each_near(const Particles<Pack>& p, const SearchSet& set, const Vec3d& 
 template <class Pack>
 PressureReading MpsSolver<Pack>::kernel_pressure(const Vec3d& point_m) const {
   if (!holds_point(tank_.domain(), point_m)) return {};
-  const double h = smoothing_length_m();
-  const double l0 = constants_.parameters.particle_distance_m;
-  const double normalisation = wcsph::Wendland{h}.normalisation();
-  double weights = 0;
-  double pressures = 0;
+  KernelSums<double> sums(smoothing_length_m());
   for_each_near(particles_, {fluid_index_, particles_.first_fluid()}, point_m, travel_m_,
                 [&](std::size_t j, double distance) {
-                  if (distance >= 2 * h) return;
-                  const double W = wcsph::wendland_weight(wcsph::wendland_taper(distance, 0.5 / h), normalisation);
-                  weights += W;
-                  pressures += W * particles_.pressure[j];
+                  if (distance < 2 * smoothing_length_m()) sums.add(distance, particles_.pressure[j]);
                 });
-  return {weights > 0 ? pressures / weights : 0.0, weights * l0 * l0 * l0};
+  return {mean_pressure_Pa(sums), filled_share(sums.weights, constants_.parameters.particle_distance_m)};
 }
 
 /// The same mean of the velocity   [m/s]
 template <class Pack>
 VelocityReading MpsSolver<Pack>::kernel_velocity(const Vec3d& point_m) const {
   if (!holds_point(tank_.domain(), point_m)) return {};
-  const double h = smoothing_length_m();
-  const double l0 = constants_.parameters.particle_distance_m;
-  const double normalisation = wcsph::Wendland{h}.normalisation();
-  double weights = 0;
-  Vec3d velocities;
+  KernelSums<Vec3d> sums(smoothing_length_m());
   for_each_near(particles_, {fluid_index_, particles_.first_fluid()}, point_m, travel_m_,
                 [&](std::size_t j, double distance) {
-                  if (distance >= 2 * h) return;
-                  const double W = wcsph::wendland_weight(wcsph::wendland_taper(distance, 0.5 / h), normalisation);
-                  weights += W;
-                  velocities += W * particles_.velocity.template at<double>(j);
+                  if (distance < 2 * smoothing_length_m())
+                    sums.add(distance, particles_.velocity.template at<double>(j));
                 });
-  return {weights > 0 ? (1 / weights) * velocities : Vec3d{}, weights * l0 * l0 * l0};
+  return {mean_velocity_m_s(sums), filled_share(sums.weights, constants_.parameters.particle_distance_m)};
 }
 
 template <class Pack>

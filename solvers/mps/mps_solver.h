@@ -84,7 +84,7 @@ class MpsSolver final : public Solver {
   std::size_t place_of(std::int32_t wall) const {
     return static_cast<std::size_t>(wall_place_[static_cast<std::size_t>(wall)]);
   }
-  Vec3d reaction_of(std::size_t solid, const Box& fluid_within_m) const;
+  Vec3d reaction_of(std::size_t i, const Box& fluid_within_m) const;
 
   // The phases of a step.
   void predict();

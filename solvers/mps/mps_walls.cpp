@@ -43,13 +43,12 @@ void MpsSolver<Pack>::bring_walls_to(double t_s) {
 
 template <class Pack>
 void MpsSolver<Pack>::find_wall_normals() {
-  const auto moving_body = [&](std::size_t i) {
-    return moving_body_.empty()
-               ? 0
-               : static_cast<int>(moving_body_[static_cast<std::size_t>(particles_.id[i] - first_wall_id_)]);
-  };
-  wall_normals_ = wall_normals(particles_, SolidSets{dummies_.index, walls_.index, moving_body},
-                               constants_.parameters.particle_distance_m);
+  SolidSets solids{dummies_.index, walls_.index, {}};
+  if (moving_walls_.any())
+    solids.moving_body = [&](std::size_t i) {
+      return static_cast<int>(moving_body_[static_cast<std::size_t>(particles_.id[i] - first_wall_id_)]);
+    };
+  wall_normals_ = wall_normals(particles_, solids, constants_.parameters.particle_distance_m);
 }
 
 template class MpsSolver<FloatPack>;

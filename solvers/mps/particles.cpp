@@ -28,8 +28,9 @@ void Particles<Pack>::permute_fluid(std::span<const std::int32_t> order, int thr
 template <class Pack>
 void Particles<Pack>::permute(std::size_t first, std::span<const std::int32_t> from) {
   const auto apply = [&](auto& values) {
-    auto moved = values;
-    for (std::size_t k = 0; k < from.size(); ++k) values[first + k] = moved[first + static_cast<std::size_t>(from[k])];
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+    const std::vector moved(begin, begin + static_cast<std::ptrdiff_t>(from.size()));
+    for (std::size_t k = 0; k < from.size(); ++k) values[first + k] = moved[static_cast<std::size_t>(from[k])];
   };
   const auto apply_to_field = [&](auto& field) {
     apply(field.x);

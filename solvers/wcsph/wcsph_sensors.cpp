@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/kernel_sums.h"
 #include "solvers/totals.h"
 #include "solvers/wcsph/equation_of_state.h"
 #include "solvers/wcsph/kernel.h"
@@ -30,18 +31,12 @@ void for_each_near(const Sorted<Pack>& sorted, const Vec3d& point, Visit&& visit
 template <class Pack>
 PressureReading WcsphSolver<Pack>::kernel_pressure(const Vec3d& point_m) const {
   if (!holds_point(tank_.domain(), point_m)) return {};
-  const double h = parameters_.smoothing_length_m();
-  const double normalisation = Wendland{h}.normalisation();
-  double weights = 0;
-  double pressures = 0;
+  KernelSums<double> sums(parameters_.smoothing_length_m());
   double filled = 0;
   for_each_near(sorted_fluid(), point_m, [&](std::size_t j, double distance) {
-    const double W = wendland_weight(wendland_taper(distance, 0.5 / h), normalisation);
-    weights += W;
-    pressures += W * static_cast<double>(fluid_.pressure[j]);
-    filled += W * static_cast<double>(fluid_.volume[j]);
+    filled += sums.add(distance, static_cast<double>(fluid_.pressure[j])) * static_cast<double>(fluid_.volume[j]);
   });
-  return {weights > 0 ? pressures / weights : 0.0, filled};
+  return {mean_pressure_Pa(sums), filled};
 }
 
 template <class Pack>
@@ -53,18 +48,12 @@ double WcsphSolver<Pack>::volume_fraction(const Vec3d& point_m) const {
 template <class Pack>
 VelocityReading WcsphSolver<Pack>::kernel_velocity(const Vec3d& point_m) const {
   if (!holds_point(tank_.domain(), point_m)) return {};
-  const double h = parameters_.smoothing_length_m();
-  const double normalisation = Wendland{h}.normalisation();
-  double weights = 0;
+  KernelSums<Vec3d> sums(parameters_.smoothing_length_m());
   double filled = 0;
-  Vec3d velocities;
   for_each_near(sorted_fluid(), point_m, [&](std::size_t j, double distance) {
-    const double W = wendland_weight(wendland_taper(distance, 0.5 / h), normalisation);
-    weights += W;
-    velocities += W * fluid_.velocity.template at<double>(j);
-    filled += W * static_cast<double>(fluid_.volume[j]);
+    filled += sums.add(distance, fluid_.velocity.template at<double>(j)) * static_cast<double>(fluid_.volume[j]);
   });
-  return {weights > 0 ? (1 / weights) * velocities : Vec3d{}, filled};
+  return {mean_velocity_m_s(sums), filled};
 }
 
 /// Sum of m times Eq. (3) over wall particles, with fluid neighbours only and without gravity: by the terms' symmetry

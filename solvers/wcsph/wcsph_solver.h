@@ -62,7 +62,7 @@ class WcsphSolver final : public Solver {
   void set_moving_walls(double t_s);
   void visit_moving_walls(StateArchive& archive);
   std::size_t wall_of(std::size_t i) const { return static_cast<std::size_t>(walls_.id[i] - first_wall_id_); }
-  Vec3d reaction_of(std::size_t wall_particle, const Box& fluid_within_m) const;
+  Vec3d reaction_of(std::size_t i, const Box& fluid_within_m) const;
 
   // The phases of a step.
   StepLimits sum_rates();

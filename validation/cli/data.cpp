@@ -20,13 +20,6 @@ struct Arguments {
   std::string out;
 };
 
-std::vector<fs::path> raw_paths(const Arguments& arguments, const DigestSource& source) {
-  std::vector<fs::path> paths(arguments.raw.begin(), arguments.raw.end());
-  if (paths.empty())
-    for (const RawFile& file : source.files) paths.push_back(raw_data_folder() / file.file);
-  return paths;
-}
-
 int digest(const Arguments& arguments) {
   const std::vector<DigestPlan> plans = digest_plans(resolve_in_source_tree(arguments.folder));
   if (plans.size() > 1 && !(arguments.raw.empty() && arguments.out.empty()))
@@ -36,7 +29,9 @@ int digest(const Arguments& arguments) {
                     arguments.folder, plans.size()));
   for (const DigestPlan& plan : plans) {
     const DigestSource source = load_digest_source(plan.description);
-    const std::vector<fs::path> raw = raw_paths(arguments, source);
+    const std::vector<fs::path> raw = arguments.raw.empty()
+                                          ? raw_paths(source, raw_data_folder())
+                                          : std::vector<fs::path>(arguments.raw.begin(), arguments.raw.end());
     const fs::path out = arguments.out.empty() ? plan.digest : fs::path(arguments.out);
     make_digest(source, raw, out);
     std::string names;

@@ -123,19 +123,11 @@ bool comes_before(const RunRecord& a, const RunRecord& b) {
   return order(a) < order(b);
 }
 
-/// ", delta = 0.02": what this run has set otherwise than the case; alpha has its own place in a label.
-std::string changed_parameters(const RunRecord& run, const Case& c) {
-  const SolverOption* solver = c.find_solver(run.solver);
-  if (!run.own || solver == nullptr) return "";
-  std::map<std::string, double> defaults = solver->parameters;
-  if (const WallOption* walls = find_walls(*solver, run.walls); walls != nullptr)
-    for (const auto& [name, value] : walls->parameters) defaults[name] = value;
-  defaults.erase("alpha");
-  for (const Placement& placement : c.placements) defaults[placement.name] = placement.drawn_m;
+/// ", delta = 0.02" for a label.
+std::string changed_parameters_text(const RunRecord& run, const Case& c) {
   std::string changed;
-  for (const auto& [name, value] : defaults)
-    if (const auto used = run.number("parameters." + name); used && *used != value)
-      changed += fmt::format(", {} = {}", name, shortest(*used));
+  for (const auto& [name, value] : changed_parameters(run, c))
+    changed += fmt::format(", {} = {}", name, shortest(value));
   return changed;
 }
 
@@ -144,7 +136,7 @@ void name_run(AnalysedRun& run, std::size_t index, const Case& c) {
   run.key = fmt::format("R{}", index + 1);
   run.group = solver_name(r) + (r.walls.empty() ? "" : ", " + r.walls + " walls");
   const std::string alpha = r.alpha() ? fmt::format("α = {}, ", shortest(*r.alpha())) : "";
-  const std::string rest = fmt::format("{}l0 {:g} mm{}", alpha, 1000 * r.l0_m, changed_parameters(r, c));
+  const std::string rest = fmt::format("{}l0 {:g} mm{}", alpha, 1000 * r.l0_m, changed_parameters_text(r, c));
   run.short_label = run.key + " " + rest;
   run.label = fmt::format("{} {}{}, {}", run.key, solver_name(r), r.walls.empty() ? "" : " " + r.walls, rest);
   run.directory = shown_directory(r.path);
@@ -239,6 +231,20 @@ ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
     data.runs.push_back(std::move(run));
   }
   return data;
+}
+
+std::map<std::string, double> changed_parameters(const RunRecord& run, const Case& c) {
+  const SolverOption* solver = c.find_solver(run.solver);
+  if (!run.own || solver == nullptr) return {};
+  std::map<std::string, double> defaults = solver->parameters;
+  if (const WallOption* walls = find_walls(*solver, run.walls); walls != nullptr)
+    for (const auto& [name, value] : walls->parameters) defaults[name] = value;
+  defaults.erase("alpha");
+  for (const Placement& placement : c.placements) defaults[placement.name] = placement.drawn_m;
+  std::map<std::string, double> changed;
+  for (const auto& [name, value] : defaults)
+    if (const auto used = run.number("parameters." + name); used && *used != value) changed[name] = *used;
+  return changed;
 }
 
 std::optional<double> processor_time_s(const AnalysedRun& run) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -69,6 +70,10 @@ struct ReportData {
 /// Reads the runs and compares them. Throws std::runtime_error when no run is given, a run cannot be read, the runs are
 /// of several cases, or the case is unknown.
 ReportData analyse(const std::vector<std::filesystem::path>& run_directories);
+
+/// What this run has set otherwise than the case, by name; without alpha, which has a place of its own everywhere.
+/// Empty for other codes.
+std::map<std::string, double> changed_parameters(const RunRecord& run, const Case& c);
 
 /// Mean of |deviation| of the impulses over the headline sensors; missing when one of them is. `model` empty: primary.
 std::optional<double> mean_impulse_error(const ReportData& data, const AnalysedRun& run, const std::string& model = "");

@@ -2,23 +2,45 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstring>
 #include <ctime>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 
 namespace sluice {
 
-std::string cpu_model() {
+namespace {
+
+/// The first value of a field of /proc/cpuinfo; empty when it is not there (other processors name other fields).
+std::string cpu_field(const std::string& name) {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);) {
-    if (!line.starts_with("model name")) continue;
+    if (!line.starts_with(name + "\t") && !line.starts_with(name + " ")) continue;
     const auto colon = line.find(": ");
-    if (colon != std::string::npos) return line.substr(colon + 2);
+    if (colon != std::string::npos && line.find_first_not_of("\t ", name.size()) == colon)
+      return line.substr(colon + 2);
   }
-  return "unknown";
+  return "";
+}
+
+}  // namespace
+
+std::string cpu_model() {
+  const std::string model = cpu_field("model name");
+  return model.empty() ? "unknown" : model;
+}
+
+std::string machine_fingerprint() {
+  std::string text = cpu_model();
+  const std::string family = cpu_field("cpu family");
+  if (!family.empty()) text += fmt::format(" ({}/{}/{})", family, cpu_field("model"), cpu_field("stepping"));
+  const double memory_bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return fmt::format("{}, {} processors, {:.0f} GiB", text, std::thread::hardware_concurrency(),
+                     memory_bytes / (1024.0 * 1024 * 1024));
 }
 
 std::int64_t peak_memory_bytes() {

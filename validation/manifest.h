@@ -25,6 +25,10 @@ const BuildInfo& build_info();
 /// The processor's model name as the system gives it, or "unknown".
 std::string cpu_model();
 
+/// What tells this machine from another one where times are compared: processor (with family, model and stepping, since
+/// virtual machines give it general names), logical processors that this process may use, and memory.
+std::string machine_fingerprint();
+
 /// Largest resident memory of this process so far [bytes].
 std::int64_t peak_memory_bytes();
 

@@ -24,6 +24,7 @@ void put_provenance(json& m, const Case& c) {
   m["compiler"] = build_info().compiler;
   m["flags"] = build_info().flags;
   m["cpu"] = cpu_model();
+  m["machine"] = machine_fingerprint();
   m["started"] = utc_now();
   m["case_hash"] = c.hash;
   m["data_hash"] = nullptr;

@@ -1,0 +1,159 @@
+#include "ci/findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace sluice::ci {
+namespace {
+
+/// The metric's tolerance, widened by what people have called scatter.
+Tolerance tolerance_of(const MetricSeries& series, const std::string& id, const Ledger& ledger) {
+  Tolerance tolerance = series.kind().tolerance;
+  double squares = 0;
+  int count = 0;
+  for (const Acceptance& acceptance : ledger.acceptances) {
+    if (!acceptance.scatter || acceptance.series != id) continue;
+    squares += acceptance.difference * acceptance.difference;
+    ++count;
+  }
+  if (count > 0) tolerance.absolute = std::max(tolerance.absolute, scatter_factor * std::sqrt(squares / count));
+  return tolerance;
+}
+
+Verdict verdict_of(Better better, const Shift& shift) {
+  const double change = badness(better, shift.after) - badness(better, shift.before);
+  if (change > shift.threshold / 2) return Verdict::worse;
+  if (change < -shift.threshold / 2) return Verdict::better;
+  return Verdict::moved;
+}
+
+const Acceptance* acceptance_of(const std::vector<const Result*>& points, std::size_t first, const std::string& id,
+                                const Ledger& ledger) {
+  for (const Acceptance& acceptance : ledger.acceptances) {
+    if (acceptance.series != id) continue;
+    const auto earlier = static_cast<std::size_t>(std::count_if(
+        points.begin(), points.end(), [&](const Result* point) { return point->date < acceptance.first_date; }));
+    if (std::max(earlier, first) - std::min(earlier, first) <= acceptance_reach) return &acceptance;
+  }
+  return nullptr;
+}
+
+State state_of(const Finding& finding, Better better, bool alarms, double level_now) {
+  if (!alarms || finding.verdict == Verdict::better || finding.verdict == Verdict::moved) return State::note;
+  if (finding.acceptance != nullptr) return State::accepted;
+  if (finding.verdict == Verdict::missing) return State::open;
+  const double limit = badness(better, finding.shift.before) + finding.shift.threshold / 2;
+  return badness(better, level_now) < limit ? State::fixed : State::open;
+}
+
+void add_shifts(SeriesFindings& found, const std::string& id, const Ledger& ledger, const ShiftRule& rule) {
+  const MetricKind& kind = found.series.kind();
+  const std::vector<Shift> shifts = find_shifts(found.values, tolerance_of(found.series, id, ledger), rule);
+  if (shifts.empty()) return;
+  const double level_now = median(std::span(found.values).subspan(shifts.back().first));
+  for (const Shift& shift : shifts) {
+    Finding finding;
+    finding.shift = shift;
+    finding.verdict = verdict_of(kind.better, shift);
+    finding.last_before = found.valued[shift.first - 1];
+    finding.first = found.valued[shift.first];
+    finding.acceptance = acceptance_of(found.valued, shift.first, id, ledger);
+    finding.state = state_of(finding, kind.better, kind.alarms, level_now);
+    found.findings.push_back(finding);
+  }
+}
+
+/// The last points have no value, and earlier ones have.
+void add_missing(SeriesFindings& found, const std::string& id, const Ledger& ledger) {
+  const auto& points = found.series.points;
+  std::size_t first = points.size();
+  while (first > 0 && !points[first - 1]->value) --first;
+  if (first == 0 || first == points.size()) return;
+  Finding finding;
+  finding.verdict = Verdict::missing;
+  finding.shift.first = finding.shift.found = found.values.size();
+  finding.shift.before = *points[first - 1]->value;
+  finding.last_before = points[first - 1];
+  finding.first = points[first];
+  finding.acceptance = acceptance_of(points, first, id, ledger);
+  finding.state = state_of(finding, found.series.kind().better, found.series.kind().alarms, 0);
+  found.findings.push_back(finding);
+}
+
+bool is_percentage(const MetricSeries& series) {
+  return series.kind().family == Family::accuracy && series.unit == "1" && series.key.metric != "finished";
+}
+
+bool is_time_difference(const MetricSeries& series) {
+  return series.kind().family == Family::accuracy && series.unit == "s";
+}
+
+}  // namespace
+
+std::vector<SeriesFindings> find_all(const Ledger& ledger, const ShiftRule& rule) {
+  std::string newest;
+  for (const Result& result : ledger.results) newest = std::max(newest, result.date);
+  std::vector<SeriesFindings> all;
+  for (MetricSeries& series : series_of(ledger)) {
+    SeriesFindings& found = all.emplace_back();
+    found.series = std::move(series);
+    for (const Result* point : found.series.points) {
+      if (!point->value) continue;
+      found.valued.push_back(point);
+      found.values.push_back(*point->value);
+    }
+    const std::string id = found.series.key.id();
+    add_shifts(found, id, ledger, rule);
+    add_missing(found, id, ledger);
+    found.stale = days_of(newest) - days_of(found.series.points.back()->date) > stale_days;
+  }
+  return all;
+}
+
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::worse:
+      return "worse";
+    case Verdict::better:
+      return "better";
+    case Verdict::missing:
+      return "missing";
+    case Verdict::moved:
+      break;
+  }
+  return "moved";
+}
+
+std::string_view to_string(State state) {
+  switch (state) {
+    case State::open:
+      return "open";
+    case State::accepted:
+      return "accepted";
+    case State::fixed:
+      return "fixed";
+    case State::note:
+      break;
+  }
+  return "note";
+}
+
+std::string value_text(const MetricSeries& series, double value) {
+  if (is_percentage(series))
+    return series.kind().better == Better::nearest_zero ? fmt::format("{:+.2f} %", 100 * value)
+                                                        : fmt::format("{:.2f} %", 100 * value);
+  if (is_time_difference(series)) return fmt::format("{:+.1f} ms", 1000 * value);
+  return series.unit == "1" ? fmt::format("{:.5g}", value) : fmt::format("{:.5g} {}", value, series.unit);
+}
+
+std::string change_text(const MetricSeries& series, double before, double after) {
+  if (is_percentage(series)) return fmt::format("{:+.2f} points", 100 * (after - before));
+  if (is_time_difference(series)) return fmt::format("{:+.1f} ms", 1000 * (after - before));
+  if (before == 0) return fmt::format("{:+.5g}", after - before);
+  return fmt::format("{:+.2f} %", 100 * (after - before) / std::abs(before));
+}
+
+}  // namespace sluice::ci

@@ -11,12 +11,12 @@ namespace sluice::ci {
 
 /// What the caller knows better than the file, or what the file does not say. Empty: as the file says.
 struct Provenance {
-  std::string commit;
-  std::string date;
-  std::string machine;
-  std::string compiler;
-  std::string flags;
-  std::string link;  ///< of the run itself; empty: the path as given
+  std::string commit{};
+  std::string date{};
+  std::string machine{};
+  std::string compiler{};
+  std::string flags{};
+  std::string link{};  ///< of the run itself; empty: the path as given
 };
 
 /// All results of one run. Of a run that did not finish only `finished` = 0: its other values compare with nothing.

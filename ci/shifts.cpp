@@ -62,14 +62,16 @@ class Night {
     const double old_level = trimmed_mean(before), new_level = trimmed_mean(after);
     const double difference = new_level - old_level;
     if (!confirmed(after, old_level, difference)) return std::nullopt;
-    const std::optional<double> scatter = scatter_about(old_level, new_level, first);
-    if (!scatter) return std::nullopt;
+    const std::vector<double> residuals = residuals_about(old_level, new_level, first);
+    if (residuals.size() < rule_.least_residuals) return std::nullopt;
+    const double scatter = scatter_of(residuals);
+    const double caution = residuals.size() < rule_.many_residuals ? 2 : 1;
     const auto n_before = static_cast<double>(before.size()), n_after = static_cast<double>(after.size());
     const double standard_error = std::sqrt(1 / n_before + 1 / (n_after - 0.5));  // of the difference, in scatters
-    const double scatters = std::max(rule_.least_scatters, rule_.critical * standard_error);
-    const double threshold = std::max(scatters * *scatter, tolerance_.at(old_level));
+    const double scatters = caution * std::max(rule_.least_scatters, rule_.critical * standard_error);
+    const double threshold = std::max(scatters * scatter, tolerance_.at(old_level));
     if (std::abs(difference) < threshold) return std::nullopt;
-    return Shift{first, window_.size() - 1, old_level, new_level, *scatter, threshold, std::nullopt};
+    return Shift{first, window_.size() - 1, old_level, new_level, scatter, threshold, std::nullopt};
   }
 
   bool confirmed(std::span<const double> after, double old_level, double difference) const {
@@ -80,13 +82,11 @@ class Night {
            static_cast<double>(beyond) >= rule_.share_beyond_middle * static_cast<double>(after.size());
   }
 
-  /// Missing when there are too few residuals to tell.
-  std::optional<double> scatter_about(double old_level, double new_level, std::size_t first) const {
+  std::vector<double> residuals_about(double old_level, double new_level, std::size_t first) const {
     std::vector<double> residuals(earlier_.begin(), earlier_.end());
     for (std::size_t i = 0; i < window_.size(); ++i)
       residuals.push_back(window_[i] - (i < first ? old_level : new_level));
-    if (residuals.size() < rule_.least_residuals) return std::nullopt;
-    return scatter_of(residuals);
+    return residuals;
   }
 
   std::span<const double> window_;

@@ -4,7 +4,7 @@
 // that a shift must also be large against the history's own scatter, confirmed, and worth a person's time:
 //   - the new level, over n_after nights, differs from the old one, over n_before nights, by at least
 //       scatter * max(least_scatters, critical * sqrt(1/n_before + 1/(n_after - 1/2))),
-//     the half because a handful of nights may all be wild ones;
+//     the half because a handful of nights may all be wild ones (and twice that in a series of less than a month);
 //   - at least `nights_to_confirm` nights, and three quarters of all since, lie beyond the middle between the levels;
 //   - the difference is at least the metric's own tolerance.
 // A level is a trimmed mean. The scatter is that of the values about their own level, old and new, and of earlier
@@ -37,7 +37,8 @@ struct ShiftRule {
   std::size_t window = 90;  ///< latest values looked at, at most
   std::size_t nights_to_confirm = 3;
   std::size_t least_before = 8;      ///< values before a shift ...
-  std::size_t least_residuals = 30;  ///< ... and values that the scatter is taken from, earlier segments included
+  std::size_t least_residuals = 12;  ///< ... and values that the scatter is taken from, earlier segments included
+  std::size_t many_residuals = 30;   ///< with fewer the scatter is little more than a guess: twice as much is asked for
   double critical = 6.5;
   double least_scatters = 2.1;
   double share_beyond_middle = 0.75;

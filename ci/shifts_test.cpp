@@ -93,6 +93,16 @@ TEST(FindShifts, OneOrTwoWildNightsAreNoShift) {
   EXPECT_TRUE(find_shifts(values, any_size).empty());
 }
 
+// In the first month the scatter is little more than a guess: only what is beyond doubt is told.
+TEST(FindShifts, AShortSeriesIsJudgedWithCaution) {
+  std::vector<double> values = noise(22, 31);
+  add_step(values, 16, 5);
+  EXPECT_TRUE(find_shifts(values, any_size).empty());
+  add_step(values, 16, 10);
+  ASSERT_EQ(find_shifts(values, any_size).size(), 1u);
+  EXPECT_EQ(find_shifts(values, any_size)[0].first, 16u);
+}
+
 TEST(FindShifts, ASlowDriftIsFoundInTheEnd) {
   std::vector<double> values = noise(200, 8);
   for (std::size_t i = 60; i < values.size(); ++i) values[i] += 0.1 * static_cast<double>(i - 60);

@@ -30,44 +30,48 @@ Verdict verdict_of(Better better, const Shift& shift) {
   return Verdict::moved;
 }
 
-const Acceptance* acceptance_of(const std::vector<const Result*>& points, std::size_t first, const std::string& id,
-                                const Ledger& ledger) {
+/// Gives every acceptance of the series to the finding nearest to it: one that later nights have placed anew is still
+/// the one that was accepted, and another close by is not.
+void match_acceptances(SeriesFindings& found, const std::string& id, const Ledger& ledger) {
+  const auto position = [&](const std::string& date) {
+    return std::count_if(found.series.points.begin(), found.series.points.end(),
+                         [&](const Result* point) { return point->date < date; });
+  };
   for (const Acceptance& acceptance : ledger.acceptances) {
     if (acceptance.series != id) continue;
-    const auto earlier = static_cast<std::size_t>(std::count_if(
-        points.begin(), points.end(), [&](const Result* point) { return point->date < acceptance.first_date; }));
-    if (std::max(earlier, first) - std::min(earlier, first) <= acceptance_reach) return &acceptance;
+    Finding* nearest = nullptr;
+    std::ptrdiff_t least = acceptance_reach + 1;
+    for (Finding& finding : found.findings) {
+      const auto distance = std::abs(position(finding.first->date) - position(acceptance.first_date));
+      if (distance >= least) continue;
+      least = distance;
+      nearest = &finding;
+    }
+    if (nearest != nullptr) nearest->acceptance = &acceptance;
   }
-  return nullptr;
 }
 
-State state_of(const Finding& finding, Better better, bool alarms, double level_now) {
-  if (!alarms || finding.verdict == Verdict::better || finding.verdict == Verdict::moved) return State::note;
+State state_of(const Finding& finding, const MetricKind& kind, double level_now) {
+  if (!kind.alarms || finding.verdict == Verdict::better || finding.verdict == Verdict::moved) return State::note;
   if (finding.acceptance != nullptr) return State::accepted;
   if (finding.verdict == Verdict::missing) return State::open;
-  const double limit = badness(better, finding.shift.before) + finding.shift.threshold / 2;
-  return badness(better, level_now) < limit ? State::fixed : State::open;
+  const double limit = badness(kind.better, finding.shift.before) + finding.shift.threshold / 2;
+  return badness(kind.better, level_now) < limit ? State::fixed : State::open;
 }
 
-void add_shifts(SeriesFindings& found, const std::string& id, const Ledger& ledger, const ShiftRule& rule) {
-  const MetricKind& kind = found.series.kind();
-  const std::vector<Shift> shifts = find_shifts(found.values, tolerance_of(found.series, id, ledger), rule);
-  if (shifts.empty()) return;
-  const double level_now = median(std::span(found.values).subspan(shifts.back().first));
-  for (const Shift& shift : shifts) {
+void add_shifts(SeriesFindings& found, const Tolerance& tolerance, const ShiftRule& rule) {
+  for (const Shift& shift : find_shifts(found.values, tolerance, rule)) {
     Finding finding;
     finding.shift = shift;
-    finding.verdict = verdict_of(kind.better, shift);
+    finding.verdict = verdict_of(found.series.kind().better, shift);
     finding.last_before = found.valued[shift.first - 1];
     finding.first = found.valued[shift.first];
-    finding.acceptance = acceptance_of(found.valued, shift.first, id, ledger);
-    finding.state = state_of(finding, kind.better, kind.alarms, level_now);
     found.findings.push_back(finding);
   }
 }
 
 /// The last points have no value, and earlier ones have.
-void add_missing(SeriesFindings& found, const std::string& id, const Ledger& ledger) {
+void add_missing(SeriesFindings& found) {
   const auto& points = found.series.points;
   std::size_t first = points.size();
   while (first > 0 && !points[first - 1]->value) --first;
@@ -78,8 +82,6 @@ void add_missing(SeriesFindings& found, const std::string& id, const Ledger& led
   finding.shift.before = *points[first - 1]->value;
   finding.last_before = points[first - 1];
   finding.first = points[first];
-  finding.acceptance = acceptance_of(points, first, id, ledger);
-  finding.state = state_of(finding, found.series.kind().better, found.series.kind().alarms, 0);
   found.findings.push_back(finding);
 }
 
@@ -106,8 +108,12 @@ std::vector<SeriesFindings> find_all(const Ledger& ledger, const ShiftRule& rule
       found.values.push_back(*point->value);
     }
     const std::string id = found.series.key.id();
-    add_shifts(found, id, ledger, rule);
-    add_missing(found, id, ledger);
+    add_shifts(found, tolerance_of(found.series, id, ledger), rule);
+    const std::size_t level_begin = found.findings.empty() ? 0 : found.findings.back().shift.first;
+    const double level_now = median(std::span(found.values).subspan(level_begin));
+    add_missing(found);
+    match_acceptances(found, id, ledger);
+    for (Finding& finding : found.findings) finding.state = state_of(finding, found.series.kind(), level_now);
     found.stale = days_of(newest) - days_of(found.series.points.back()->date) > stale_days;
   }
   return all;

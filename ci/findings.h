@@ -2,6 +2,7 @@
 // them people know of.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>

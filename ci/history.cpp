@@ -23,8 +23,10 @@ std::string SeriesKey::run_kind() const {
   std::string text = solver.empty() ? case_name : case_name + " " + solver;
   const auto values = nlohmann::json::parse(parameters, nullptr, false);
   if (!values.is_object()) return text;
-  for (const auto& [name, value] : values.items())
-    text += fmt::format(", {} {}", name, value.is_string() ? value.get<std::string>() : value.dump());
+  for (const auto& [name, value] : values.items()) {
+    const std::string written = value.is_string() ? value.get<std::string>() : value.dump();
+    text += fmt::format(", {} {}", name, value.is_number() ? fmt::format("{:g}", value.get<double>()) : written);
+  }
   return text;
 }
 

@@ -1,16 +1,17 @@
 // One series over time.
 
 class TrendChart {
-  // `choose(series, index)` is called when a point is clicked, `tell(text)` when one is pointed at.
+  // `choose(chart, index)` is called when a point is clicked, `tell(text)` when one is pointed at.
   constructor(series, runs, choose, tell) {
     this.series = series;
     this.runs = runs;
     this.choose = choose;
     this.tell = tell;
     this.current = -1;
+    this.picked = -1;
     this.svg = drawn("svg", { role: "img", tabindex: "0", "aria-label": `${series.quantity}, ${series.points.length} runs` });
     this.svg.addEventListener("pointermove", (event) => this.pointAt(this.nearest(event)));
-    this.svg.addEventListener("pointerleave", () => this.pointAt(-1));
+    this.svg.addEventListener("pointerleave", () => this.pointAt(this.picked));
     this.svg.addEventListener("click", (event) => this.pick(this.nearest(event)));
     this.svg.addEventListener("keydown", (event) => this.key(event));
   }
@@ -28,6 +29,7 @@ class TrendChart {
     this.drawFindings();
     this.drawDots();
     this.ring = this.svg.appendChild(drawn("circle", { class: "ring", r: 6, visibility: "hidden" }));
+    this.pointAt(this.picked);
   }
 
   scale() {
@@ -35,7 +37,7 @@ class TrendChart {
     const values = this.series.points.map(([, value]) => value).filter((value) => value !== null);
     let low = Math.min(...values), high = Math.max(...values);
     if (!values.length) [low, high] = [0, 1];
-    const margin = high > low ? 0.08 * (high - low) : Math.max(0.05 * Math.abs(high), 1e-3);
+    const margin = high > low ? 0.08 * (high - low) : 0.05 * Math.abs(high) || (this.series.form === "plain" ? 1 : 1e-3);
     this.low = low - margin;
     this.high = high + margin;
     const first = Math.min(...times), last = Math.max(...times);
@@ -133,8 +135,14 @@ class TrendChart {
 
   pick(index) {
     if (index < 0) return;
+    this.picked = index;
     this.pointAt(index);
-    this.choose(this.series, index);
+    this.choose(this, index);
+  }
+
+  release() {
+    this.picked = -1;
+    this.pointAt(-1);
   }
 
   key(event) {

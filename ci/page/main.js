@@ -96,7 +96,17 @@ function linkTo(run) {
   return run.href ? element("a", { href: run.href }, run.link) : run.link;
 }
 
-function showProvenance(series, index) {
+function hideProvenance() {
+  byId("provenance").hidden = true;
+  document.body.classList.remove("telling");
+  if (page.picked) page.picked.release();
+  page.picked = null;
+}
+
+function showProvenance(chart, index) {
+  const series = chart.series;
+  if (page.picked && page.picked !== chart) page.picked.release();
+  page.picked = chart;
   const [number, value, reason] = series.points[index];
   const run = data.runs[number];
   const rows = [["Value", value === null ? `none: ${reason}` : valueText(series, value)], ["Exactly", value === null ? "" : `${value} ${series.unit}`],
@@ -107,6 +117,7 @@ function showProvenance(series, index) {
   byId("provenance-list").replaceChildren(...rows.filter(([, content]) => content).flatMap(([name, content]) =>
     [element("dt", {}, name), element("dd", {}, content)]));
   byId("provenance").hidden = false;
+  document.body.classList.add("telling");
 }
 
 function describe() {
@@ -123,13 +134,15 @@ function start() {
   byId("night").max = String(Math.max(0, page.nights.length - 1));
   byId("night").value = byId("night").max;
   byId("error-cost-chart").append(page.errorCost.svg);
-  byId("filters").addEventListener("input", () => { page.limit = cardsAtOnce; refresh(); });
+  const filter = () => { page.limit = cardsAtOnce; refresh(); };
+  for (const id of ["case", "solver", "family", "show"]) byId(id).addEventListener("change", filter);
+  byId("search").addEventListener("input", filter);
   byId("filters").addEventListener("submit", (event) => event.preventDefault());
-  byId("reset").addEventListener("click", () => { byId("filters").reset(); page.limit = cardsAtOnce; refresh(); });
+  byId("clear").addEventListener("click", () => { byId("filters").reset(); filter(); });
   byId("more").addEventListener("click", () => { page.limit += cardsAtOnce; refresh(); });
   byId("night").addEventListener("input", refreshErrorCost);
-  byId("close").addEventListener("click", () => { byId("provenance").hidden = true; });
-  document.addEventListener("keydown", (event) => { if (event.key === "Escape") byId("provenance").hidden = true; });
+  byId("close").addEventListener("click", hideProvenance);
+  document.addEventListener("keydown", (event) => { if (event.key === "Escape") hideProvenance(); });
   window.addEventListener("resize", drawCharts);
   refresh();
 }

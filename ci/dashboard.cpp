@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -78,7 +79,7 @@ json findings_of(const SeriesFindings& found) {
                   {"verdict", to_string(finding.verdict)},
                   {"state", to_string(finding.state)},
                   {"before", shift.before},
-                  {"text", finding_text(found, finding)}};
+                  {"detail", detail_text(found, finding)}};
     if (finding.verdict != Verdict::missing) entry["after"] = shift.after;
     list.push_back(std::move(entry));
   }
@@ -117,10 +118,23 @@ json series_entry(const SeriesFindings& found, Runs& runs) {
           {"findings", findings_of(found)}};
 }
 
+/// What is open first, benchmarks last; the series of one kind of run together, in the order of metric_kinds().
+auto page_order(const SeriesFindings& found) {
+  const bool open = std::any_of(found.findings.begin(), found.findings.end(),
+                                [](const Finding& finding) { return finding.state == State::open; });
+  const MetricSeries& series = found.series;
+  return std::tuple(!open, series.key.case_name == benchmark_case, series.key.run_kind(), order_of(series.key.metric),
+                    series.key.quantity(), series.key.machine);
+}
+
 json page_data(const Ledger& ledger, const std::vector<SeriesFindings>& all, const fs::path& directory) {
+  std::vector<const SeriesFindings*> ordered;
+  for (const SeriesFindings& found : all) ordered.push_back(&found);
+  std::sort(ordered.begin(), ordered.end(),
+            [](const SeriesFindings* a, const SeriesFindings* b) { return page_order(*a) < page_order(*b); });
   Runs runs(directory);
   json series = json::array();
-  for (const SeriesFindings& found : all) series.push_back(series_entry(found, runs));
+  for (const SeriesFindings* found : ordered) series.push_back(series_entry(*found, runs));
   json damaged = json::array();
   for (const DamagedLine& line : ledger.damaged) damaged.push_back({line.line, line.problem});
   json data = {{"made", utc_now()}, {"series", std::move(series)}, {"damaged", std::move(damaged)}};

@@ -70,7 +70,7 @@ Result common_of(const fs::path& file, const json& context, const Provenance& gi
   common.machine = needed("machine", given.machine);
   common.compiler = stated("compiler", given.compiler);
   common.flags = stated("flags", given.flags);
-  common.case_name = "benchmark";
+  common.case_name = benchmark_case;
   common.run = file_hash(file);
   common.run.erase(0, common.run.find(':') + 1);
   common.link = given.link.empty() ? file.lexically_normal().generic_string() : given.link;

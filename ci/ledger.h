@@ -22,6 +22,8 @@
 namespace sluice::ci {
 
 inline constexpr int ledger_schema = 1;
+/// In the place of a case where a benchmark was measured.
+inline const std::string benchmark_case = "benchmark";
 
 /// One value of one metric.
 struct Result {

@@ -1,5 +1,6 @@
 #include "ci/metric_kinds.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sluice::ci {
@@ -64,9 +65,15 @@ const std::vector<MetricKind>& metric_kinds() {
 
 const MetricKind& kind_of(std::string_view metric) {
   static const MetricKind other = timing("", Better::unknown, 0.03, false, "not known to the ledger");
-  for (const MetricKind& kind : metric_kinds())
-    if (kind.name == metric) return kind;
-  return other;
+  const std::size_t order = order_of(metric);
+  return order < metric_kinds().size() ? metric_kinds()[order] : other;
+}
+
+std::size_t order_of(std::string_view metric) {
+  const std::vector<MetricKind>& kinds = metric_kinds();
+  const auto found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const MetricKind& kind) { return kind.name == metric; });
+  return static_cast<std::size_t>(found - kinds.begin());
 }
 
 double badness(Better better, double level) {

@@ -1,6 +1,7 @@
 // What the ledger's metrics mean: which way is better, on what a value depends, and the smallest change worth a look.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +30,9 @@ const std::vector<MetricKind>& metric_kinds();
 /// The kind of a metric. Names that are not known (counters of a benchmark) are costs of unknown direction, tied to the
 /// machine, that raise no alarm.
 const MetricKind& kind_of(std::string_view metric);
+
+/// Its place in metric_kinds(); behind all of them when it is not known.
+std::size_t order_of(std::string_view metric);
 
 /// How bad a level is: grows as the metric gets worse. Zero for metrics of unknown direction.
 double badness(Better better, double level);

@@ -94,24 +94,31 @@ Count count(const std::vector<SeriesFindings>& all) {
   return n;
 }
 
-std::string finding_text(const SeriesFindings& found, const Finding& finding) {
+std::string detail_text(const SeriesFindings& found, const Finding& finding) {
   const MetricSeries& series = found.series;
   const Shift& shift = finding.shift;
-  std::string text = fmt::format("{:<8} {}: ", upper(to_string(finding.verdict)), series.key.quantity());
+  std::string text;
   if (finding.verdict == Verdict::missing) {
-    text += fmt::format("{} before, no value now ({})", value_text(series, shift.before), finding.first->reason);
+    text = finding.first->reason;
   } else {
-    text += fmt::format(
-        "{} to {} ({}; {} needed", value_text(series, shift.before), value_text(series, shift.after),
-        change_text(series, shift.before, shift.after),
-        change_text(series, shift.before, shift.before + std::copysign(shift.threshold, shift.after - shift.before)));
+    const double needed = shift.before + std::copysign(shift.threshold, shift.after - shift.before);
+    text = fmt::format("{}; {} needed", change_text(series, shift.before, shift.after),
+                       change_text(series, shift.before, needed));
     if (shift.scatter > 0)
       text += fmt::format(", {:.1f} times the scatter", std::abs(shift.after - shift.before) / shift.scatter);
-    text += ")";
   }
-  if (finding.state != State::open) text += fmt::format(" [{}]", to_string(finding.state));
-  if (finding.acceptance != nullptr) text += " " + finding.acceptance->reason;
-  return text + fmt::format("  series {}", series.key.id());
+  if (finding.acceptance == nullptr) return text;
+  const std::string by = finding.acceptance->by.empty() ? "" : " by " + finding.acceptance->by;
+  return text + fmt::format("; accepted{}: {}", by, finding.acceptance->reason);
+}
+
+std::string finding_text(const SeriesFindings& found, const Finding& finding) {
+  const MetricSeries& series = found.series;
+  const std::string now = finding.verdict == Verdict::missing ? "no value" : value_text(series, finding.shift.after);
+  return fmt::format("{:<8} {}: {} to {} ({}){}  series {}", upper(to_string(finding.verdict)), series.key.quantity(),
+                     value_text(series, finding.shift.before), now, detail_text(found, finding),
+                     finding.state == State::open ? "" : fmt::format(" [{}]", to_string(finding.state)),
+                     series.key.id());
 }
 
 std::string summary(const std::vector<SeriesFindings>& all, bool everything) {

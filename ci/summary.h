@@ -21,7 +21,10 @@ Count count(const std::vector<SeriesFindings>& all);
 /// Plain text. `everything`: also what is accepted, fixed, better, moved or of a metric without alarm.
 std::string summary(const std::vector<SeriesFindings>& all, bool everything = false);
 
-/// One line of a finding, as in the summary: "WORSE  impulse_deviation of P1 nearest: -4.60 % to -9.80 % ...".
+/// By how much, what was needed, and who has accepted it: "-5.20 points; -1.00 points needed, 8.1 times the scatter".
+std::string detail_text(const SeriesFindings& found, const Finding& finding);
+
+/// One line of a finding, as in the summary: "WORSE  impulse_deviation of P1 nearest: -4.60 % to -9.80 % (...)".
 std::string finding_text(const SeriesFindings& found, const Finding& finding);
 
 }  // namespace sluice::ci

@@ -130,7 +130,7 @@ TEST_F(LedgerProgram, FromTheRunToTheAlarmToItsAcceptance) {
   const Answer accepted = ledger("accept --commit c006 --reason 'a known one'");
   EXPECT_EQ(accepted.exit_code, 0) << accepted.err;
   EXPECT_EQ(ledger("check").exit_code, 0);
-  EXPECT_THAT(ledger("check --everything").out, HasSubstr("[accepted] a known one"));
+  EXPECT_THAT(ledger("check --everything").out, HasSubstr("accepted by tester: a known one) [accepted]"));
   EXPECT_EQ(read_ledger(file).acceptances.front().by, "tester");
 
   ledger("append " + run(7, 1.12).string());

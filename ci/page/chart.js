@@ -89,7 +89,7 @@ class TrendChart {
       const before = finding.first > 0 ? this.x[finding.first - 1] : this.x[finding.first];
       const at = (before + this.x[finding.first]) / 2;
       const flag = drawn("g", { class: `finding ${finding.verdict}`, transform: `translate(${at.toFixed(1)} 12)` });
-      flag.append(drawn("title", {}, finding.text), drawn("path", { class: isHollow(finding) ? "flag hollow" : "flag", d: flagShapes[finding.verdict] }));
+      flag.append(drawn("title", {}, `${flagWords[finding.verdict]}, ${finding.state}: ${finding.detail}`), drawn("path", { class: isHollow(finding) ? "flag hollow" : "flag", d: flagShapes[finding.verdict] }));
       this.svg.append(drawn("line", { class: "change", x1: at, x2: at, y1: this.frame.top - 2, y2: this.frame.bottom }), flag);
     }
   }

@@ -38,7 +38,7 @@ function findingRow(series, finding) {
     element("td", {}, name, element("br"), element("span", { class: "kind" }, series.kind)),
     element("td", { class: "n" }, `${valueText(series, finding.before)} to ${after}`),
     element("td", { class: "n" }, `since ${run.commit}, ${day(run.date)}`),
-    element("td", {}, finding.text));
+    element("td", {}, finding.detail, element("br"), element("span", { class: "kind" }, `series ${series.id}`)));
 }
 
 function refreshFindings(shown) {
@@ -49,7 +49,7 @@ function refreshFindings(shown) {
   byId("state").textContent = open ? `${open} open regression${open > 1 ? "s" : ""} in this selection` : "No open regression in this selection";
   byId("state").className = open ? "open" : "clear";
   if (!all.length) { byId("findings").replaceChildren(); return; }
-  const head = element("tr", {}, ...["Change", "Of", "From, to", "Since", "In words"].map((text) => element("th", {}, text)));
+  const head = element("tr", {}, ...["Change", "Of", "From, to", "Since", "By how much"].map((text) => element("th", {}, text)));
   byId("findings").replaceChildren(element("table", {}, element("thead", {}, head),
     element("tbody", {}, ...all.slice(0, 200).map(({ series, finding }) => findingRow(series, finding)))));
 }
@@ -109,10 +109,10 @@ function showProvenance(chart, index) {
   page.picked = chart;
   const [number, value, reason] = series.points[index];
   const run = data.runs[number];
-  const rows = [["Value", value === null ? `none: ${reason}` : valueText(series, value)], ["Exactly", value === null ? "" : `${value} ${series.unit}`],
+  const rows = [["Value", value === null ? `none: ${reason}` : valueText(series, value)], ["Exactly", value === null ? "" : `${value} ${series.unit === "1" ? "" : series.unit}`],
     ["Run of", series.kind], ["Date", run.date], ["Commit", run.commit], ["Machine", run.threads ? `${run.machine}; ${run.threads} threads` : run.machine],
     ["Compiler", `${run.compiler} ${run.flags}`.trim()], ["Run", run.run], ["Look at", linkTo(run)],
-    ...series.findings.filter((finding) => finding.first === index).map((finding) => ["Change", finding.text])];
+    ...series.findings.filter((finding) => finding.first === index).map((finding) => ["Change", `${flagWords[finding.verdict]}, ${finding.state}: ${finding.detail}`])];
   byId("provenance-title").textContent = series.quantity;
   byId("provenance-list").replaceChildren(...rows.filter(([, content]) => content).flatMap(([name, content]) =>
     [element("dt", {}, name), element("dd", {}, content)]));

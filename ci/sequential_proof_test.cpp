@@ -3,7 +3,9 @@
 // one of five standard deviations of what the nights scatter by.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <random>
@@ -20,13 +22,20 @@ using Values = std::vector<double>;
 
 constexpr std::size_t nights_a_year = 365;
 constexpr int series_count = 200;
-constexpr int planted_steps = 600;  // of each kind
+constexpr int planted_steps = 600;  // of each kind, and year
 constexpr double share_to_find = 0.95;
 
 struct Noise {
   std::string name;
   std::function<Values(Random&, std::size_t)> draw;
+  bool promised = true;  ///< false: beyond what the rule is made for, measured only
 };
+
+/// SLUICE_PROOF_YEARS: for the figures of ci/README.md, where one year is no good estimate of a rate.
+int years() {
+  const char* given = std::getenv("SLUICE_PROOF_YEARS");
+  return given == nullptr ? 1 : std::max(1, std::atoi(given));
+}
 
 Values independent(std::size_t n, const std::function<double()>& one) {
   Values values(n);
@@ -66,8 +75,18 @@ const std::vector<Noise>& noises() {
          std::normal_distribution<double> normal;
          return independent(n, [&] { return std::exp(s * normal(random)) / scale; });
        }},
+      {"autoregressive, correlation 0.3: beyond the limit",
+       [](Random& random, std::size_t n) { return autoregressive(random, n, 0.3); }, false},
   };
   return all;
+}
+
+/// What is promised; where figures are asked for, what is not, too.
+std::vector<Noise> noises_to_try() {
+  std::vector<Noise> chosen;
+  for (const Noise& noise : noises())
+    if (noise.promised || years() > 1) chosen.push_back(noise);
+  return chosen;
 }
 
 /// Found: a shift of the right sign is told, and begins within three nights of the step.
@@ -84,44 +103,51 @@ bool is_found(const Values& values, std::size_t step_at, double size) {
 double share_found(const Noise& noise, double size, std::size_t limit, std::uint64_t seed) {
   Random random(seed);
   int found = 0;
-  for (int k = 0; k < planted_steps; ++k) {
+  const int steps = planted_steps * years();
+  for (int k = 0; k < steps; ++k) {
     const auto step_at = static_cast<std::size_t>(30 + k % 61);
     Values values = noise.draw(random, step_at + limit);
     for (std::size_t i = step_at; i < values.size(); ++i) values[i] += size;
     found += is_found(values, step_at, size);
   }
-  return static_cast<double>(found) / planted_steps;
+  return static_cast<double>(found) / steps;
 }
 
 // Each night's answer follows from that night and those before it (shifts_test.cpp shows it), so that one replay is a
 // year of nightly checks. Turns for the better count as well as those for the worse.
 TEST(SequentialProof, AtMostOneFalseAlarmAYearOver200Series) {
   std::uint64_t seed = 1;
-  for (const Noise& noise : noises()) {
+  for (const Noise& noise : noises_to_try()) {
     Random random(seed++);
     int alarms = 0;
-    for (int k = 0; k < series_count; ++k)
+    for (int k = 0; k < series_count * years(); ++k)
       alarms += static_cast<int>(find_shifts(noise.draw(random, nights_a_year), {}).size());
-    EXPECT_LE(alarms, 1) << noise.name;
-    RecordProperty("false_alarms", alarms);
-    std::cout << noise.name << ": " << alarms << " false alarms in a year of " << series_count << " series\n";
+    if (noise.promised) {
+      EXPECT_LE(alarms, years()) << noise.name;
+    }
+    std::cout << noise.name << ": " << alarms << " false alarms in " << years() << " year(s) of " << series_count
+              << " series\n";
   }
 }
 
 TEST(SequentialProof, StepsOfFiveScattersAreFoundWithinFourNights) {
-  for (const Noise& noise : noises())
+  for (const Noise& noise : noises_to_try())
     for (const double size : {5.0, -5.0}) {
       const double share = share_found(noise, size, 4, 5);
-      EXPECT_GE(share, share_to_find) << noise.name << ", step " << size;
+      if (noise.promised) {
+        EXPECT_GE(share, share_to_find) << noise.name << ", step " << size;
+      }
       std::cout << noise.name << ": " << 100 * share << " % of steps of " << size << " found within 4 nights\n";
     }
 }
 
 TEST(SequentialProof, StepsOfThreeScattersAreFoundWithinTwelveNights) {
-  for (const Noise& noise : noises())
+  for (const Noise& noise : noises_to_try())
     for (const double size : {3.0, -3.0}) {
       const double share = share_found(noise, size, 12, 3);
-      EXPECT_GE(share, share_to_find) << noise.name << ", step " << size;
+      if (noise.promised) {
+        EXPECT_GE(share, share_to_find) << noise.name << ", step " << size;
+      }
       std::cout << noise.name << ": " << 100 * share << " % of steps of " << size << " found within 12 nights\n";
     }
 }

@@ -4,10 +4,18 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "validation/file_hash.h"
 
 namespace sluice::ci {
+
+bool SeriesKey::operator<(const SeriesKey& other) const {
+  const auto fields = [](const SeriesKey& k) {
+    return std::tie(k.case_name, k.solver, k.parameters, k.metric, k.of, k.machine);
+  };
+  return fields(*this) < fields(other);
+}
 
 std::string SeriesKey::id() const {
   std::string text;

@@ -18,7 +18,7 @@ struct SeriesKey {
   std::string of;
   std::string machine;  ///< of metrics that depend on the machine, with the number of threads; empty otherwise
 
-  auto operator<=>(const SeriesKey&) const = default;
+  bool operator<(const SeriesKey& other) const;
   /// Eight hexadecimal digits to name the series by on a command line.
   std::string id() const;
   /// "impulse_deviation of P1 nearest".

@@ -28,7 +28,7 @@ std::string find_program(std::initializer_list<const char*> names) {
   for (const char* name : names) {
     std::istringstream directories(path == nullptr ? "" : path);
     for (std::string directory; std::getline(directories, directory, ':');) {
-      const std::string candidate = directory + "/" + name;
+      std::string candidate = directory + "/" + name;
       if (access(candidate.c_str(), X_OK) == 0) return candidate;
     }
   }

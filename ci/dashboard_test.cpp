@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "ci/made_results.h"
-#include "ci/webdriver.h"
+#include "reports/webdriver.h"
 
 namespace sluice::ci {
 namespace {

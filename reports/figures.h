@@ -55,6 +55,8 @@ std::vector<Picture> alpha_figures(const FigureMaker& maker);
 /// Peak, impulse and noise of each force against alpha.
 std::vector<Picture> force_alpha_figures(const FigureMaker& maker);
 std::vector<Picture> resolution_figures(const FigureMaker& maker);
+/// Predicted against measured, one panel a quantity.
+std::vector<Picture> bias_figures(const FigureMaker& maker);
 std::vector<Picture> cost_figures(const FigureMaker& maker);
 /// Energy of the fluid and its densest particle over time, one picture a group of runs.
 std::vector<Picture> conservation_figures(const FigureMaker& maker);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -248,6 +249,26 @@ TEST(ReportTables, ThreeResolutionsGiveAnOrderOrTheWordsThatThereIsNone) {
   run.scale = 1.3;  // finer is worse
   synthetic::write_run(dirs.back(), run);
   EXPECT_EQ(cell(resolution_table(analyse(dirs)), "P1 impulse", "observed_order").text, "not in the asymptotic range");
+}
+
+/// Half of the runs 20 % too high, half as much too low in the logarithm: no bias but that of the scatter itself.
+TEST(ReportTables, BiasAndScatterOfEachMethod) {
+  std::vector<fs::path> runs;
+  MadeRun made;
+  for (const double alpha : {0.1, 0.01, 0.001, 0.0001}) {
+    runs.push_back(fresh("bias_" + std::to_string(runs.size())));
+    made.alpha = alpha;
+    made.scale = runs.size() % 2 == 0 ? 1.2 : 1 / 1.2;
+    synthetic::write_run(runs.back(), made);
+  }
+  const Table table = bias_table(analyse(runs));
+  const double deviation = std::log(1.2) * std::sqrt(32.0 / 31.0);
+  EXPECT_EQ(*cell(table, "WCSPH", "pairs").value, 32);
+  EXPECT_NEAR(*cell(table, "WCSPH", "scatter_percent").value, 100 * deviation, 0.05);
+  EXPECT_NEAR(*cell(table, "WCSPH", "bias").value, std::exp(0.5 * deviation * deviation), 1e-3);
+  const Table best = best_alpha_table(analyse(runs));
+  EXPECT_EQ(*cell(best, "P1 impulse", "alpha").value, 0.001) << "16.7 % too low against 20 % too high";
+  EXPECT_NEAR(*cell(best, "P1 impulse", "error_percent").value, 100 * (1 - 1 / 1.2), 0.05);
 }
 
 TEST(ReportTables, AcceptanceNamesPassFailAndNotApplicable) {

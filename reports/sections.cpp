@@ -66,6 +66,7 @@ void add_alpha_section(std::vector<ReportSection>& sections, const FigureMaker& 
     append(section, force_alpha_figures(maker));
     section.blocks.push_back(force_alpha_table(maker.data));
   }
+  if (Table best = best_alpha_table(maker.data); best.rows.size() > 1) section.blocks.push_back(std::move(best));
   sections.push_back(std::move(section));
 }
 
@@ -96,6 +97,20 @@ void add_resolution_section(std::vector<ReportSection>& sections, const FigureMa
            "place."));
   append(section, resolution_figures(maker));
   section.blocks.push_back(resolution_table(maker.data));
+  sections.push_back(std::move(section));
+}
+
+void add_uncertainty_section(std::vector<ReportSection>& sections, const FigureMaker& maker) {
+  Table bias = bias_table(maker.data);
+  if (bias.rows.empty()) return;
+  ReportSection section{"uncertainty", "Bias, scatter and uncertainty", {}};
+  section.blocks.push_back(hint(
+      "Is a method wrong always the same way (bias), or now this way and now that (scatter)? And is an error larger "
+      "than what resolution and measurement leave open? Only then does it say something of the method itself."));
+  append(section, bias_figures(maker));
+  section.blocks.push_back(std::move(bias));
+  if (Table table = validation_uncertainty_table(maker.data); !table.rows.empty())
+    section.blocks.push_back(std::move(table));
   sections.push_back(std::move(section));
 }
 
@@ -205,6 +220,7 @@ std::vector<ReportSection> report_sections(const FigureMaker& maker, bool snapsh
   add_alpha_section(sections, maker);
   add_placements_section(sections, data);
   add_resolution_section(sections, maker);
+  add_uncertainty_section(sections, maker);
   if (snapshots && maker.enabled) add_snapshot_section(sections, maker);
   add_conclusions_section(sections, data);
   sections.push_back(conservation_section(maker));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 #include "reports/text.h"
 
@@ -212,6 +213,17 @@ const char* css_class(Tone tone) {
   return "";
 }
 
+/// Hashes, versions and paths: on paper they may break anywhere.
+bool has_long_word(std::string_view text) {
+  constexpr std::size_t longest = 14;
+  while (text.size() > longest) {
+    const std::size_t word = std::min(text.find(' '), text.size());
+    if (word > longest) return true;
+    text.remove_prefix(std::min(word + 1, text.size()));
+  }
+  return false;
+}
+
 std::string html_row(const Table& table, const TableRow& row) {
   if (row.is_group())
     return fmt::format("<tr class=\"group\"><th scope=\"rowgroup\" colspan=\"{}\"><span>{}</span></th></tr>\n",
@@ -221,6 +233,7 @@ std::string html_row(const Table& table, const TableRow& row) {
     const TableCell& cell = row.cells[c];
     std::string classes = table.columns[c].numeric ? "n" : "";
     if (cell.tone != Tone::plain) classes += std::string(classes.empty() ? "" : " ") + css_class(cell.tone);
+    if (!table.columns[c].numeric && has_long_word(cell.text)) classes += classes.empty() ? "long" : " long";
     const std::string attribute = classes.empty() ? "" : " class=\"" + classes + "\"";
     out += c == 0 ? fmt::format("<th scope=\"row\"{}>{}</th>", attribute, html_text(cell.text))
                   : fmt::format("<td{}>{}</td>", attribute, html_text(cell.text));

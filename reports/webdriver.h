@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace sluice::ci {
+namespace sluice {
 
 /// Where the two programs are; empty when one is not installed.
 struct BrowserPrograms {
@@ -47,6 +47,10 @@ class Browser {
   /// Errors and warnings of the console so far.
   std::vector<std::string> complaints();
   void screenshot(const std::filesystem::path& png);
+  /// Lays the page out as for paper ("print") or for the screen ("screen").
+  void set_medium(const std::string& medium);
+  /// The page as a printer would get it.
+  void print(const std::filesystem::path& pdf);
 
  private:
   nlohmann::json send(const std::string& method, const std::string& path, const nlohmann::json& body = nullptr) const;
@@ -67,4 +71,4 @@ inline constexpr const char* enter = "\uE007";
 inline constexpr const char* escape = "\uE00C";
 }  // namespace keys
 
-}  // namespace sluice::ci
+}  // namespace sluice

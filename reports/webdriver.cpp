@@ -1,4 +1,4 @@
-#include "ci/webdriver.h"
+#include "reports/webdriver.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -18,7 +18,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace sluice::ci {
+namespace sluice {
 namespace {
 
 using nlohmann::json;
@@ -227,8 +227,18 @@ std::vector<std::string> Browser::complaints() {
   return all;
 }
 
+void Browser::set_medium(const std::string& medium) {
+  send("POST", session_ + "/goog/cdp/execute",
+       {{"cmd", "Emulation.setEmulatedMedia"}, {"params", {{"media", medium}}}});
+}
+
+void Browser::print(const std::filesystem::path& pdf) {
+  std::ofstream(pdf, std::ios::binary) << decode_base64(
+      send("POST", session_ + "/print", json::object()).get<std::string>());
+}
+
 void Browser::screenshot(const std::filesystem::path& png) {
   std::ofstream(png, std::ios::binary) << decode_base64(send("GET", session_ + "/screenshot").get<std::string>());
 }
 
-}  // namespace sluice::ci
+}  // namespace sluice

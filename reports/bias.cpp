@@ -1,0 +1,63 @@
+#include "reports/bias.h"
+
+#include <fmt/format.h>
+
+#include "reports/quantity.h"
+
+namespace sluice {
+
+namespace {
+
+using Measure = const Pair& (*)(const Comparison&);
+
+const Pair& impulse_pair(const Comparison& c) {
+  return c.impulse;
+}
+const Pair& smoothed_peak_pair(const Comparison& c) {
+  return c.smoothed_peak;
+}
+const Pair& peak_pair(const Comparison& c) {
+  return c.peak;
+}
+const Pair& arrival_pair(const Comparison& c) {
+  return c.arrival_s;
+}
+
+std::vector<PredictedAndMeasured> pairs_of(const ReportData& data, const RunGroup& group, SensorKind kind,
+                                           Measure measure) {
+  std::vector<PredictedAndMeasured> pairs;
+  for (const AnalysedRun* run : group.runs)
+    for (const std::string& sensor : data.sensors(kind)) {
+      const SensorReading* reading = run->primary(sensor);
+      if (reading == nullptr) continue;
+      const Pair& values = measure(reading->comparison);
+      if (values.simulated && values.measured) pairs.push_back({*values.simulated, *values.measured});
+    }
+  return pairs;
+}
+
+void add(std::vector<BiasQuantity>& out, const ReportData& data, SensorKind kind, const std::string& what,
+         const std::string& unit, Measure measure) {
+  BiasQuantity quantity{fmt::format("{} [{}]", what, unit), unit, {}};
+  for (const RunGroup& group : run_groups(data, data.runs.size()))
+    if (auto pairs = pairs_of(data, group, kind, measure); !pairs.empty())
+      quantity.methods.push_back({group.title, std::move(pairs)});
+  if (!quantity.methods.empty()) out.push_back(std::move(quantity));
+}
+
+}  // namespace
+
+std::vector<BiasQuantity> bias_quantities(const ReportData& data) {
+  std::vector<BiasQuantity> out;
+  for (const auto& [kind, name] :
+       {std::pair(SensorKind::pressure, "pressures"), std::pair(SensorKind::force, "forces")}) {
+    const Quantity& q = quantity_of(kind);
+    add(out, data, kind, fmt::format("Impulse of {}", name), q.impulse_unit, impulse_pair);
+    add(out, data, kind, fmt::format("10 ms mean peak of {}", name), q.unit, smoothed_peak_pair);
+    add(out, data, kind, fmt::format("Arrival at {}", name), "s", arrival_pair);
+  }
+  add(out, data, SensorKind::wave_height, "Highest wave", quantity_of(SensorKind::wave_height).unit, peak_pair);
+  return out;
+}
+
+}  // namespace sluice

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "validation/case.h"
@@ -38,8 +39,12 @@ struct Campaign {
 };
 
 /// Reads a campaign; its runs go to directories below `out`. `threads` 0: all processors.
-/// Throws CaseError `file:line: key: message`, also where two combinations are the same run.
+/// Throws CaseError `file:line: key: message`, also where two combinations are the same run, or there are over 10 000.
 Campaign load_campaign(const std::filesystem::path& file, const std::filesystem::path& out, int threads);
+
+/// The same from text; `file` is what messages call it.
+Campaign parse_campaign(std::string_view text, const std::filesystem::path& file, const std::filesystem::path& out,
+                        int threads);
 
 /// Where a run of a campaign stands on disk.
 enum class CampaignState {

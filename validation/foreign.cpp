@@ -136,14 +136,14 @@ ProbeTable read_file(TextTableReader& reader, const ForeignFile& f, std::int64_t
   for (const ForeignColumn& column : f.columns) wanted.push_back(index_of(reader, names, column.column));
   auto columns = reader.read_rows(names, {f.separator, f.decimal_comma, wanted, f.skip_incomplete_rows}, time);
   skipped += reader.skipped();
-  auto times = std::move(columns[time]);
+  auto times = columns[time];  // a copy, as below: one column may feed time and sensors
   rescale_times(times, f.time.offset, f.time.factor, f.file, f.time.column);
   if (times.empty()) throw std::runtime_error(fmt::format("{}: holds no row behind its header", f.file.string()));
   std::vector<std::string> targets;
   std::vector<std::vector<double>> values;
   for (std::size_t k = 0; k < f.columns.size(); ++k) {
     targets.push_back(f.columns[k].target);
-    values.push_back(columns[wanted[k + 1]]);  // a copy: one column may feed two sensors
+    values.push_back(columns[wanted[k + 1]]);
     rescale(values.back(), f.columns[k].offset, f.columns[k].factor, f.file, f.columns[k].column);
   }
   return {f.file, std::move(targets), std::move(times), std::move(values)};

@@ -19,21 +19,19 @@ bool is_continuation(unsigned char byte) {
 }  // namespace
 
 std::string printable(std::string_view text, std::size_t most) {
-  const bool cut = text.size() > most;
-  if (cut) {
-    while (most > 0 && is_continuation(static_cast<unsigned char>(text[most]))) --most;
-    text = text.substr(0, most);
-  }
   std::string out;
+  std::size_t whole = 0;  // bytes of `out` up to a character's end that leave it at `most`
   for (const char character : text) {
     const auto byte = static_cast<unsigned char>(character);
+    if (out.size() <= most && !is_continuation(byte)) whole = out.size();
     if (is_control(byte)) {
       fmt::format_to(std::back_inserter(out), "\\x{:02x}", byte);
     } else {
       out += character;
     }
+    if (out.size() > most) return out.substr(0, whole) + "...";
   }
-  return cut ? out + "..." : out;
+  return out;
 }
 
 }  // namespace sluice

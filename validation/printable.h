@@ -7,8 +7,8 @@
 
 namespace sluice {
 
-/// Control characters come out as \x1b, so that no file can play with a terminal or break a line; what is longer than
-/// `most` bytes is cut at a whole character and ends in "...".
+/// Control characters come out as \x1b, so that no file can play with a terminal or break a line; what comes out
+/// longer than `most` bytes is cut at a whole character and ends in "...".
 std::string printable(std::string_view text, std::size_t most = 200);
 
 }  // namespace sluice

@@ -20,6 +20,7 @@ TEST(Printable, CutsWhatIsLongAtAWholeCharacter) {
   EXPECT_EQ(printable("abcdef", 3), "abc...");
   EXPECT_EQ(printable("ä", 1), "...");
   EXPECT_EQ(printable("aäb", 2), "a...");
+  EXPECT_EQ(printable("a\n\nb", 6), "a\\x0a...");
 }
 
 }  // namespace

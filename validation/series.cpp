@@ -61,7 +61,7 @@ std::vector<std::string> read_probe_header(TextTableReader& reader) {
   auto header = split_fields(reader.next_header_line(), ',');
   if (header.empty() || header[0] != "t_s") {
     reader.fail(fmt::format("the first column must be t_s, the time in seconds; rename or convert \"{}\"",
-                            header.empty() ? "" : header[0]));
+                            header.empty() ? "" : printable(header[0])));
   }
   std::map<std::string, int> seen;
   for (std::size_t k = 0; k < header.size(); ++k) {

@@ -26,9 +26,13 @@ DigestColumn read_column(TomlReader& table) {
   column.mean_decimals = table.integer("mean_decimals");
   column.extreme_decimals = table.integer("extreme_decimals");
   table.finish();
-  for (const auto& [key, text] : {std::pair{"name", column.name}, {"unit", column.unit}})
-    if (text.find_first_of("_,;\" \t\r\n") != std::string::npos)
-      table.fail(key, "has an underscore, separator, quote or blank (it becomes part of a column's name)");
+  constexpr std::string_view no_name = ",;\" \t\r\n";
+  if (column.name.find_first_of(no_name) != std::string::npos || column.name.find('_') != std::string::npos)
+    table.fail("name", "has an underscore, separator, quote or blank (it becomes part of a column's name)");
+  const bool has_underscore = column.unit.find('_') != std::string::npos && column.unit != "m_s";
+  if (column.unit.find_first_of(no_name) != std::string::npos || has_underscore)
+    table.fail("unit",
+               "has an underscore, separator, quote or blank, and is not m_s (it becomes part of a column's name)");
   if (column.number < 1) table.fail("number", "columns are counted from 1");
   if (column.mean_decimals < 0 || column.mean_decimals > 15) table.fail("mean_decimals", "must lie between 0 and 15");
   if (column.extreme_decimals < 0 || column.extreme_decimals > 15) {

@@ -115,6 +115,9 @@ RunRecord parse_run(std::string_view manifest, const fs::path& directory) {
   run.case_name = require(run.text("case"), file, "case", "\"kleefsman\"");
   run.solver = require(run.text("solver"), file, "solver", "\"name\"");
   run.l0_m = require(run.number("l0_m"), file, "l0_m", "0.02");
+  if (!(run.l0_m > 0))
+    throw std::runtime_error(
+        fmt::format("{}: l0_m: is {}, must be greater than zero (metres)", file.string(), run.l0_m));
   run.walls = run.text("walls").value_or("");
   run.own = run.manifest.contains("schema");
   return run;

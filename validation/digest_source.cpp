@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "validation/digest.h"
+#include "validation/printable.h"
 #include "validation/toml_reader.h"
 
 namespace sluice {
@@ -15,6 +16,10 @@ namespace fs = std::filesystem;
 
 constexpr int most_columns = 10'000;
 constexpr double longest_smoothing_s = 100;
+
+bool fits_header(const std::string& text) {
+  return text.find_first_of(",;\" ") == std::string::npos && printable(text, text.size()) == text;
+}
 
 DigestColumn read_column(TomlReader& table) {
   DigestColumn column;
@@ -26,11 +31,9 @@ DigestColumn read_column(TomlReader& table) {
   column.mean_decimals = table.integer("mean_decimals");
   column.extreme_decimals = table.integer("extreme_decimals");
   table.finish();
-  constexpr std::string_view no_name = ",;\" \t\r\n";
-  if (column.name.find_first_of(no_name) != std::string::npos || column.name.find('_') != std::string::npos)
+  if (!fits_header(column.name) || column.name.find('_') != std::string::npos)
     table.fail("name", "has an underscore, separator, quote or blank (it becomes part of a column's name)");
-  const bool has_underscore = column.unit.find('_') != std::string::npos && column.unit != "m_s";
-  if (column.unit.find_first_of(no_name) != std::string::npos || has_underscore)
+  if (!fits_header(column.unit) || (column.unit.find('_') != std::string::npos && column.unit != "m_s"))
     table.fail("unit",
                "has an underscore, separator, quote or blank, and is not m_s (it becomes part of a column's name)");
   if (column.number < 1) table.fail("number", "columns are counted from 1");

@@ -151,6 +151,7 @@ Campaign parse_campaign(std::string_view text, const fs::path& file, const fs::p
     const Group group = parse_group(reader, campaign, file, threads);
     add_runs(reader, group, campaign, directories, out);
   }
+  if (root.has("slurm")) campaign.slurm = parse_slurm(root.table("slurm"));
   root.finish();
   return campaign;
 }

@@ -10,6 +10,7 @@
 //   t_end_s = 6.0                           # default: the case's
 //   snapshots = true                        # default: none
 //   parameters = { delta = 0.1 }            # default: the case's
+//   [slurm]                                 # on a cluster: validation/slurm.h
 #pragma once
 
 #include <filesystem>
@@ -21,6 +22,7 @@
 #include "validation/case.h"
 #include "validation/plan.h"
 #include "validation/run_settings.h"
+#include "validation/slurm.h"
 
 namespace sluice {
 
@@ -34,6 +36,8 @@ struct Campaign {
   std::string name;
   std::vector<Case> cases;
   std::vector<CampaignRun> runs;  ///< in the file's order, lists from left to right, the last varying fastest
+
+  SlurmOptions slurm;  ///< for `--engine slurm`
 
   const Case& case_of(const CampaignRun& run) const { return cases[run.the_case]; }
 };

@@ -98,7 +98,7 @@ constexpr const char* task_begin = R"(
 sluice=
 at_limit=
 heard=
-trap 'at_limit=1; heard=1; kill -TERM $sluice' USR1
+trap 'at_limit=1; heard=1; echo "$run: told to make room"; kill -TERM "$sluice"' USR1
 trap 'heard=1' TERM
 )";
 constexpr const char* task_end = R"( &
@@ -112,7 +112,9 @@ while [[ $heard ]]; do
 done
 if [[ $at_limit && $code -eq 143 ]]; then
   echo "$run: out of time, back into the queue"
-  scontrol requeue "$SLURM_JOB_ID"  # which ends this script
+  trap - TERM
+  # Ends this script. SLURM_JOB_ID of one of the tasks is the whole array's number, and would put all of it back.
+  scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
   sleep 60
 fi
 exit "$code"

@@ -143,7 +143,7 @@ class SlurmTask : public testing::Test {
     job.program = directory / "program";
     put("task.sh", slurm_runs_script(job));
     put("test.sh",
-        fmt::format("cd {}\nPATH=.:$PATH SLURM_ARRAY_TASK_ID=2 SLURM_JOB_ID=77 bash task.sh >task.log 2>&1 &\n"
+        fmt::format("cd {}\nPATH=.:$PATH SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_JOB_ID=77 SLURM_JOB_ID=77 bash task.sh >task.log 2>&1 &\n"
                     "task=$!\n{}\nwait $task\n",
                     directory.string(), meanwhile));
     const int status = std::system(fmt::format("bash {}/test.sh", directory.string()).c_str());
@@ -169,7 +169,7 @@ TEST_F(SlurmTask, ComputesItsRunAndPassesItsExitCodeOn) {
 TEST_F(SlurmTask, OutOfTimeGoesBackIntoTheQueueWithACheckpoint) {
   run(patient, std::string(once_ready) + "kill -USR1 $task");
   EXPECT_EQ(text("stopped"), "once\n");
-  EXPECT_EQ(text("requeued"), "requeue 77\n");
+  EXPECT_EQ(text("requeued"), "requeue 77_2\n");
 }
 
 TEST_F(SlurmTask, CancelledIsNotPutBackAndStopsTheProgramOnce) {

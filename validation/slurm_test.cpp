@@ -142,10 +142,10 @@ class SlurmTask : public testing::Test {
     SlurmJob job = small_job();
     job.program = directory / "program";
     put("task.sh", slurm_runs_script(job));
-    put("test.sh",
-        fmt::format("cd {}\nPATH=.:$PATH SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_JOB_ID=77 SLURM_JOB_ID=77 bash task.sh >task.log 2>&1 &\n"
-                    "task=$!\n{}\nwait $task\n",
-                    directory.string(), meanwhile));
+    put("test.sh", fmt::format("cd {}\nPATH=.:$PATH SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_JOB_ID=77 SLURM_JOB_ID=77 bash "
+                               "task.sh >task.log 2>&1 &\n"
+                               "task=$!\n{}\nwait $task\n",
+                               directory.string(), meanwhile));
     const int status = std::system(fmt::format("bash {}/test.sh", directory.string()).c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }

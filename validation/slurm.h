@@ -37,7 +37,7 @@ SlurmOptions parse_slurm(TomlReader reader);
 std::optional<double> time_limit_s(std::string_view text);
 
 /// What is wrong with the options together, with the remedy; empty when nothing is.
-std::string slurm_problem(const SlurmOptions& options);
+std::string slurm_problem(const SlurmOptions& slurm);
 
 /// What the scripts need to know; all paths absolute.
 struct SlurmJob {

@@ -90,7 +90,7 @@ void refuse_queued(const fs::path& jobs_file) {
 /// The job's number.
 std::string submit_script(const fs::path& script, const std::string& dependency) {
   const Answer answer = run_command(fmt::format("sbatch --parsable {} {}", dependency, shell_quoted(script.string())));
-  const std::string number = answer.out.substr(0, answer.out.find_first_of(";\n"));
+  std::string number = answer.out.substr(0, answer.out.find_first_of(";\n"));
   if (answer.code != 0 || number.empty() || number.find_first_not_of("0123456789") != std::string::npos)
     throw std::runtime_error(fmt::format("{}: sbatch did not take it (its words are above)", script.string()));
   return number;

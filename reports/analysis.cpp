@@ -95,6 +95,7 @@ void note_doubtful_units(AnalysedRun& run, const ReportData& data) {
 }
 
 void note_problems(AnalysedRun& run, const ReportData& data) {
+  constexpr double longest_run = 100;  // over the case's; milliseconds under the name of seconds
   const Window window = data.window;
   const RunRecord& record = run.record;
   if (record.status() == "running") run.problems.push_back("still running when the report was made");
@@ -108,6 +109,9 @@ void note_problems(AnalysedRun& run, const ReportData& data) {
     run.problems.push_back(
         fmt::format("covers {} s of a window that ends at {} s: what needs the whole window is missing",
                     fixed(times.back(), 2), fixed(window.end_s, 2)));
+  else if (times.back() > longest_run * data.the_case.t_end_s)
+    run.problems.push_back(fmt::format("ends at {} s, the case at {} s: are its times in s?",
+                                       significant(times.back(), 2), significant(data.the_case.t_end_s, 2)));
   note_doubtful_units(run, data);
   if (record.number("lost.through_walls").value_or(0) > 0)
     run.problems.push_back(fmt::format("fluid particles that went through a wall, an error of the method: {}",

@@ -172,6 +172,8 @@ TEST(ReportTables, UnitsThatCannotBeRightAreDoubted) {
   EXPECT_NE(problems[1].find("is its unit Pa?"), std::string::npos) << problems[1];
   synthetic::write_external_run(dir, 2.0);
   EXPECT_TRUE(analyse({dir}).runs[0].problems.empty());
+  std::ofstream(dir / "probes.csv") << "t_s,P1_Pa\n0,0\n400,5000\n6000,0\n";
+  EXPECT_EQ(analyse({dir}).runs[0].problems.back(), "ends at 6000 s, the case at 6.0 s: are its times in s?");
 }
 
 TEST(ReportTables, EnergyAndCompressionOfTheFluid) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "validation/checkpoint.h"
 #include "validation/manifest.h"
@@ -16,6 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
+/// Far more than anybody computes; a slip of the pen in a list makes more.
+constexpr std::size_t most_runs = 10'000;
 
 /// One [[runs]] group as written.
 struct Group {
@@ -29,7 +33,7 @@ struct Group {
 std::size_t case_index(TomlReader& reader, Campaign& campaign, const fs::path& file) {
   const std::string name = reader.text("case");
   const bool is_path = fs::path(name).extension() == ".toml";
-  Case c = load_case(is_path ? (file.parent_path() / name).string() : name);
+  Case c = load_case_for(reader, is_path ? (file.parent_path() / name).string() : name);
   for (std::size_t i = 0; i < campaign.cases.size(); ++i)
     if (campaign.cases[i].file == c.file) return i;
   campaign.cases.push_back(std::move(c));
@@ -67,7 +71,16 @@ fs::path directory_of(const Case& c, const RunSettings& settings, const Group& g
   return out / name;
 }
 
-void add_runs(TomlReader& reader, const Group& group, Campaign& campaign, const fs::path& out) {
+/// Throws CaseError where the directory is not new, or one too many.
+void remember_directory(const TomlReader& reader, const fs::path& directory, std::set<fs::path>& directories) {
+  if (!directories.insert(directory).second)
+    reader.fail("", fmt::format("{} occurs twice (take it out of one of the lists)", directory.filename().string()));
+  if (directories.size() > most_runs)
+    reader.fail("", fmt::format("makes more than {} runs (shorten its lists, or make several campaigns)", most_runs));
+}
+
+void add_runs(TomlReader& reader, const Group& group, Campaign& campaign, std::set<fs::path>& directories,
+              const fs::path& out) {
   const Case& c = campaign.cases[group.the_case];
   for (const std::string& walls : group.walls) {
     for (const double l0_m : group.l0_m) {
@@ -84,10 +97,7 @@ void add_runs(TomlReader& reader, const Group& group, Campaign& campaign, const 
           reader.fail("", error.what());
         }
         run.directory = directory_of(c, run.settings, group, out);
-        for (const CampaignRun& other : campaign.runs)
-          if (other.directory == run.directory)
-            reader.fail("", fmt::format("{} occurs twice (take it out of one of the lists)",
-                                        run.directory.filename().string()));
+        remember_directory(reader, run.directory, directories);
         campaign.runs.push_back(std::move(run));
       }
     }
@@ -97,8 +107,10 @@ void add_runs(TomlReader& reader, const Group& group, Campaign& campaign, const 
 /// Null where there is none, or where it cannot be read.
 json manifest_of(const fs::path& directory) {
   std::ifstream in(directory / "run.json");
-  json manifest = in ? json::parse(in, nullptr, false) : json();
-  return manifest.is_object() ? manifest : json();
+  if (!in) return {};
+  json manifest = json::parse(in, nullptr, false);
+  if (!manifest.is_object()) manifest = nullptr;
+  return manifest;
 }
 
 bool same_inputs(const json& manifest, const Case& c, const RunSettings& s) {
@@ -111,25 +123,35 @@ double number_of(const json& manifest, const char* key) {
   return manifest.contains(key) && manifest[key].is_number() ? manifest[key].get<double>() : 0;
 }
 
+std::string text_of(const json& manifest, const char* key) {
+  return manifest.contains(key) && manifest[key].is_string() ? manifest[key].get<std::string>() : "";
+}
+
 /// Whether a run says something about the cost of another on this machine.
 bool comparable(const json& manifest, const RunSettings& s) {
-  return manifest.is_object() && manifest.value("status", "") == "finished" &&
-         manifest.value("solver", "") == s.solver && manifest.value("walls", "") == s.walls &&
-         number_of(manifest, "threads") == s.threads && manifest.value("cpu", "") == cpu_model() &&
-         number_of(manifest, "wall_time_s") > 0 && number_of(manifest, "steps") > 0 && number_of(manifest, "l0_m") > 0;
+  return text_of(manifest, "status") == "finished" && text_of(manifest, "solver") == s.solver &&
+         text_of(manifest, "walls") == s.walls && number_of(manifest, "threads") == s.threads &&
+         text_of(manifest, "cpu") == cpu_model() && number_of(manifest, "wall_time_s") > 0 &&
+         number_of(manifest, "steps") > 0 && number_of(manifest, "l0_m") > 0;
 }
 
 }  // namespace
 
 Campaign load_campaign(const fs::path& file, const fs::path& out, int threads) {
-  const toml::table table = parse_toml(read_text(file, "give the path of a campaign's TOML file"), file.string());
+  return parse_campaign(read_text(file, "give the path of a campaign's TOML file"), file, out, threads);
+}
+
+Campaign parse_campaign(std::string_view text, const fs::path& file, const fs::path& out, int threads) {
+  const toml::table table = parse_toml(text, file.string());
   TomlReader root(table, file.string());
   Campaign campaign;
   campaign.name = root.text("name");
+  std::set<fs::path> directories;
   for (TomlReader& reader : root.tables("runs")) {
     const Group group = parse_group(reader, campaign, file, threads);
-    add_runs(reader, group, campaign, out);
+    add_runs(reader, group, campaign, directories, out);
   }
+  if (root.has("slurm")) campaign.slurm = parse_slurm(root.table("slurm"));
   root.finish();
   return campaign;
 }
@@ -138,7 +160,7 @@ CampaignState state_of(const Campaign& campaign, const CampaignRun& run) {
   const json manifest = manifest_of(run.directory);
   if (manifest.is_null()) return CampaignState::absent;
   if (!same_inputs(manifest, campaign.case_of(run), run.settings)) return CampaignState::outdated;
-  if (manifest.value("status", "") == "finished") return CampaignState::finished;
+  if (text_of(manifest, "status") == "finished") return CampaignState::finished;
   return fs::exists(run.directory / checkpoint_file) ? CampaignState::resumable : CampaignState::incomplete;
 }
 

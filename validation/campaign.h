@@ -10,16 +10,19 @@
 //   t_end_s = 6.0                           # default: the case's
 //   snapshots = true                        # default: none
 //   parameters = { delta = 0.1 }            # default: the case's
+//   [slurm]                                 # on a cluster: validation/slurm.h
 #pragma once
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "validation/case.h"
 #include "validation/plan.h"
 #include "validation/run_settings.h"
+#include "validation/slurm.h"
 
 namespace sluice {
 
@@ -34,12 +37,18 @@ struct Campaign {
   std::vector<Case> cases;
   std::vector<CampaignRun> runs;  ///< in the file's order, lists from left to right, the last varying fastest
 
+  SlurmOptions slurm;  ///< for `--engine slurm`
+
   const Case& case_of(const CampaignRun& run) const { return cases[run.the_case]; }
 };
 
 /// Reads a campaign; its runs go to directories below `out`. `threads` 0: all processors.
-/// Throws CaseError `file:line: key: message`, also where two combinations are the same run.
+/// Throws CaseError `file:line: key: message`, also where two combinations are the same run, or there are over 10 000.
 Campaign load_campaign(const std::filesystem::path& file, const std::filesystem::path& out, int threads);
+
+/// The same from text; `file` is what messages call it.
+Campaign parse_campaign(std::string_view text, const std::filesystem::path& file, const std::filesystem::path& out,
+                        int threads);
 
 /// Where a run of a campaign stands on disk.
 enum class CampaignState {

@@ -1,5 +1,6 @@
 #include "validation/campaign.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -102,7 +103,26 @@ TEST_F(CampaignTest, ErrorsNameFileLineAndKey) {
   EXPECT_THAT(refusal(head + "l0_m = [0.05]\nwalls = [\"glass\"]\n"), HasSubstr("glass"));
   EXPECT_THAT(refusal(head + "l0_m = [0.05, 0.05]\n"), HasSubstr("occurs twice"));
   EXPECT_THAT(refusal(head + "l0_m = [0.05\n"), HasSubstr("syntax"));
-  EXPECT_THAT(refusal("name = \"x\"\n[[runs]]\ncase = \"kleefman\"\n"), HasSubstr("kleefsman"));
+  EXPECT_THAT(refusal("name = \"x\"\n[[runs]]\ncase = \"kleefman\"\n"),
+              AllOf(HasSubstr("c.toml:3: runs[0].case: no case `kleefman`"), HasSubstr("kleefsman")));
+}
+
+TEST_F(CampaignTest, TooManyRunsAreRefused) {
+  std::string lists = "name = \"x\"\n[[runs]]\ncase = \"kleefsman\"\nsolver = \"wcsph\"\nl0_m = [0.05";
+  for (int k = 30; k < 50; ++k) lists += fmt::format(", 0.0{}", k);
+  lists += "]\nalpha = [0.1";
+  for (int k = 1; k < 500; ++k) lists += fmt::format(", 0.1{:03}", k);
+  EXPECT_THAT(refusal(lists + "]\n"), HasSubstr("more than 10000 runs"));
+}
+
+TEST_F(CampaignTest, AManifestOfAnyShapeHasAState) {
+  const Campaign c = load(two_groups);
+  for (const char* text : {"[1]", "{\"status\": 5}", "{", ""}) {
+    fs::create_directories(c.runs[0].directory);
+    std::ofstream(c.runs[0].directory / "run.json") << text;
+    EXPECT_NE(state_of(c, c.runs[0]), CampaignState::finished) << text;
+    EXPECT_FALSE(estimate(c, c.runs[1]).measured) << text;
+  }
 }
 
 TEST_F(CampaignTest, StatesFollowInputs) {

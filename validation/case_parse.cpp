@@ -204,7 +204,7 @@ Case parse_case(std::string_view text, const std::string& file) {
   const toml::table table = parse_toml(text, file);
   Case c = parse_root(TomlReader(table, file));
   c.file = file;
-  c.hash = fmt::format("fnv1a64:{:016x}", fnv1a64(text));
+  c.hash = text_hash(text);
   return c;
 }
 

@@ -121,6 +121,20 @@ TEST(Case, WrongTypesNameTheirLine) {
   EXPECT_THAT(error_of("alpha = 0.01", "alpha = true"), HasSubstr("parameters.alpha: is a truth value"));
 }
 
+TEST(Case, HostileTextsGetAMessage) {
+  EXPECT_EQ(error_of("layers = 3", "layers = 9999999999"),
+            "small.toml:31: solvers[0].walls[0].layers: is 9999999999, too large");
+  std::string deep = "a";
+  for (int k = 0; k < 100'000; ++k) deep += ".a";
+  EXPECT_EQ(error_of("name = \"small\"\n", "name = \"small\"\n" + deep + " = 1\n"),
+            "small.toml:2: syntax: a key of more than 20 parts");
+  EXPECT_EQ(error_of("\"none\"", "\"" + std::string(100, '.') + "\"  # " + std::string(100, '.')), "");
+  EXPECT_EQ(error_of("\"none\"", "'''\n\"" + std::string(100, '.') + "'''"), "");
+  const std::string odd = error_of("reference = ", "\"a\\u001b[2J\" = 1\nreference = ");
+  EXPECT_THAT(odd, StartsWith("small.toml:3: a\\x1b[2J: unknown key"));
+  EXPECT_LT(error_of("title", std::string(100'000, 'x')).size(), 2000u);
+}
+
 // The small case with a gate, a named block, and sensors of force and velocity; `change` replaces one piece of it.
 std::string case_with_forces(const std::string& from = "", const std::string& to = "") {
   std::string text = with(small_case, "  { lower_m = [0.8, 0.3, 0.0], upper_m = [1.0, 0.7, 0.2] },\n",

@@ -176,6 +176,36 @@ class ResumeTest : public CheckpointTest {
   std::function<void(FakeSolver&)> trouble;
 };
 
+// A second program, as another lock in this process: it is refused whatever it wants, and disturbs nothing.
+TEST_F(ResumeTest, NobodyElseComesIntoARunThatGoesOn) {
+  EXPECT_EQ(run(directory / "whole").status, "finished");
+  const fs::path out = directory / "shared";
+  trouble = [&](FakeSolver& solver) {
+    if (solver.steps() == 30) std::raise(SIGTERM);
+  };
+  EXPECT_EQ(run(out).status, "interrupted");
+  int refused = 0;
+  trouble = [&](FakeSolver& solver) {
+    if (solver.steps() != 60) return;
+    RunOptions anew;
+    anew.out = out;
+    anew.force = true;
+    for (const std::function<void()>& second : {std::function<void()>([&] { resume(out); }), std::function<void()>([&] {
+                                                  run_case(c, resolve_settings(c, request), anew);
+                                                })}) {
+      try {
+        second();
+      } catch (const std::runtime_error& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr(out.string()), HasSubstr("computes here at this moment")));
+        ++refused;
+      }
+    }
+  };
+  EXPECT_EQ(resume(out).status, "finished");
+  EXPECT_EQ(refused, 2);
+  EXPECT_EQ(contents(out / "probes.csv"), contents(directory / "whole" / "probes.csv"));
+}
+
 TEST_F(ResumeTest, ComesOutAsInOneGo) {
   EXPECT_EQ(run(directory / "whole").status, "finished");
   EXPECT_FALSE(fs::exists(directory / "whole" / checkpoint_file)) << "a finished run needs none";

@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "validation/curve.h"
-#include "validation/file_hash.h"
-#include "validation/text_table.h"
+#include "validation/digest_raw.h"
+#include "validation/printable.h"
 
 namespace sluice {
 
@@ -22,81 +22,9 @@ namespace {
 constexpr double least_cover_of_recording = 0.9;
 constexpr double least_cover_of_scatter = 0.5;
 
-std::vector<std::string> column_labels(const DigestSource& source, std::size_t count) {
-  std::vector<std::string> labels;
-  for (std::size_t k = 0; k < count; ++k) labels.push_back(fmt::format("column {}", k + 1));
-  for (const auto& column : source.columns) {
-    labels.at(static_cast<std::size_t>(column.number - 1)) += " (" + column.raw_name + ")";
-  }
-  return labels;
-}
-
-struct RawTable {
-  std::vector<double> t_s;
-  std::vector<std::vector<double>> values;  ///< one for each column of the description, scaled
-};
-
-void check_file(const RawFile& file, const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) {
-    throw std::runtime_error(
-        fmt::format("{}: no such raw file; README.md beside the digest says where it comes from, and the "
-                    "environment variable SLUICE_RAW_DATA names the folder of raw data",
-                    path.string()));
-  }
-  if (file.hash.empty()) return;
-  const auto hash = file_hash(path);
-  if (hash != file.hash) {
-    throw std::runtime_error(
-        fmt::format("{}: its hash is {}, not {} of the file described; take that file, or describe "
-                    "this one and drop raw_hash",
-                    path.string(), hash, file.hash));
-  }
-}
-
-/// Appends the rows of one file.
-void read_raw(const DigestSource& source, const RawFile& file, const std::filesystem::path& path, RawTable& raw) {
-  check_file(file, path);
-  TextTableReader reader(path);
-  std::string header;
-  for (int k = 0; k < file.header_lines; ++k) header = reader.next_header_line();
-  if (!file.header.empty() && header != file.header) {
-    reader.fail(fmt::format("the header is not the one described (\"{}\"); the columns may differ", file.header));
-  }
-  RowForm form;
-  form.separator = file.separator;
-  form.any_order = source.scatter;
-  const auto time = static_cast<std::size_t>(source.time_column - 1);
-  const auto columns =
-      reader.read_rows(column_labels(source, static_cast<std::size_t>(source.column_count)), form, time);
-  if (columns[time].size() < 2) throw std::runtime_error(fmt::format("{}: fewer than two rows", path.string()));
-  for (const double t : columns[time]) raw.t_s.push_back(source.time_scale * t);
-  for (std::size_t k = 0; k < source.columns.size(); ++k)
-    for (const double value : columns[static_cast<std::size_t>(source.columns[k].number - 1)])
-      raw.values[k].push_back(source.columns[k].scale * value);
-}
-
-void sort_by_time(RawTable& raw) {
-  std::vector<std::size_t> order(raw.t_s.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return raw.t_s[a] < raw.t_s[b]; });
-  const auto sorted = [&](const std::vector<double>& from) {
-    std::vector<double> to;
-    for (const std::size_t i : order) to.push_back(from[i]);
-    return to;
-  };
-  for (auto& values : raw.values) values = sorted(values);
-  raw.t_s = sorted(raw.t_s);
-}
-
-RawTable read_all(const DigestSource& source, const std::vector<std::filesystem::path>& paths) {
-  if (paths.size() != source.files.size())
-    throw std::runtime_error(
-        fmt::format("{} raw files given, the description names {} (give as many)", paths.size(), source.files.size()));
-  RawTable raw{{}, std::vector<std::vector<double>>(source.columns.size())};
-  for (std::size_t k = 0; k < paths.size(); ++k) read_raw(source, source.files[k], paths[k], raw);
-  if (source.scatter) sort_by_time(raw);
-  return raw;
-}
+/// More would be no digest; bins are told apart by their centres, written with 12 digits.
+constexpr double most_bins = 1e6;
+constexpr double largest_bin_number = 1e9;
 
 /// Bins k = first..last - 1 are [k bin_s, (k + 1) bin_s].
 struct BinRange {
@@ -106,6 +34,15 @@ struct BinRange {
 
 Window bin_edges(long k, double bin_s) {
   return {static_cast<double>(k) * bin_s, static_cast<double>(k + 1) * bin_s};
+}
+
+void check_bin_width(const RawTable& raw, double bin_s) {
+  const double first = raw.t_s.front() / bin_s;
+  const double last = raw.t_s.back() / bin_s;
+  if (last - first < most_bins && std::abs(first) < largest_bin_number && std::abs(last) < largest_bin_number) return;
+  throw std::runtime_error(
+      fmt::format("{}: times from {} to {} s make too many bins of {} s; are bin_s and the scale of time right?",
+                  raw.label, raw.t_s.front(), raw.t_s.back(), bin_s));
 }
 
 BinRange covered_bins(const std::vector<double>& t_s, double bin_s, double least_cover) {
@@ -242,7 +179,17 @@ void append_bin(std::string& out, const BinValues& bin, const DigestColumn& colu
   if (source.scatter) out += fmt::format(",{}", bin.points);
 }
 
+void check_digest(const std::vector<BinValues>& bins, const std::string& label, double bin_s) {
+  if (bins.size() < 2)
+    throw std::runtime_error(
+        fmt::format("{}: fewer than two bins of {} s are covered by samples; choose a narrower bin_s", label, bin_s));
+  for (const BinValues& bin : bins)
+    if (!std::isfinite(bin.mean) || !std::isfinite(bin.smoothed_high))
+      throw std::runtime_error(fmt::format("{}: its values are too large for means; are unit and scale right?", label));
+}
+
 std::string digest_text(const DigestSource& source, const RawTable& raw) {
+  check_bin_width(raw, source.bin_s);
   BinRange range =
       covered_bins(raw.t_s, source.bin_s, source.scatter ? least_cover_of_scatter : least_cover_of_recording);
   std::string text = "t_s";
@@ -250,13 +197,15 @@ std::string digest_text(const DigestSource& source, const RawTable& raw) {
   for (std::size_t k = 0; k < source.columns.size(); ++k) {
     const DigestColumn& column = source.columns[k];
     const Series series{column.name, column.unit, raw.t_s, raw.values[k]};
+    const std::string label = fmt::format("{}: {}", raw.label, printable(column.raw_name));
     columns.push_back(source.scatter ? scatter_bins(series, range, source)
-                                     : recording_bins(series, range, source, column.raw_name));
+                                     : recording_bins(series, range, source, label));
+    check_digest(columns.back(), label, source.bin_s);
     text += column_header(column, source);
   }
   text += '\n';
   for (long bin = range.first; bin < range.last; ++bin) {
-    fmt::format_to(std::back_inserter(text), "{:.7g}", (static_cast<double>(bin) + 0.5) * source.bin_s);
+    fmt::format_to(std::back_inserter(text), "{:.12g}", (static_cast<double>(bin) + 0.5) * source.bin_s);
     for (std::size_t k = 0; k < columns.size(); ++k)
       append_bin(text, columns[k][static_cast<std::size_t>(bin - range.first)], source.columns[k], source);
     text += '\n';
@@ -268,13 +217,17 @@ std::string digest_text(const DigestSource& source, const RawTable& raw) {
 
 void make_digest(const DigestSource& source, const std::vector<std::filesystem::path>& raw,
                  const std::filesystem::path& out_csv) {
-  const auto text = digest_text(source, read_all(source, raw));
+  const auto text = digest_text(source, read_raw_files(source, raw));
   std::ofstream out(out_csv, std::ios::binary);
   out << text;
   out.close();
   if (!out) {
     throw std::runtime_error(fmt::format("{}: cannot be written; check the folder and the disk", out_csv.string()));
   }
+}
+
+std::string digest_of(const DigestSource& source, std::span<const std::string_view> raw_texts) {
+  return digest_text(source, parse_raw_files(source, raw_texts));
 }
 
 std::vector<std::filesystem::path> make_digests(const std::filesystem::path& data_folder,

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sluice {
@@ -43,6 +45,8 @@ struct DigestSource {
 
 /// Throws std::runtime_error "file:line: key: what is wrong; remedy".
 DigestSource load_digest_source(const std::filesystem::path& toml_path);
+/// The same from text; `toml_path` is what messages call it.
+DigestSource parse_digest_source(std::string_view text, const std::filesystem::path& toml_path);
 
 /// One digest of a data folder: source.toml makes digest.csv, NAME.source.toml makes NAME.csv.
 struct DigestPlan {
@@ -70,6 +74,8 @@ std::vector<std::filesystem::path> raw_paths(const DigestSource& source, const s
 /// Throws std::runtime_error naming file and line when a raw file is not what the description says.
 void make_digest(const DigestSource& source, const std::vector<std::filesystem::path>& raw,
                  const std::filesystem::path& out_csv);
+/// The digest of the raw files' texts, which messages call as source.files does.
+std::string digest_of(const DigestSource& source, std::span<const std::string_view> raw_texts);
 
 /// All digests of a data folder from the raw files under `raw_root`. Returns the paths written.
 std::vector<std::filesystem::path> make_digests(const std::filesystem::path& data_folder,

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "validation/digest.h"
+#include "validation/printable.h"
 #include "validation/toml_reader.h"
 
 namespace sluice {
@@ -13,12 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-toml::table parse_file(const fs::path& path) {
-  try {
-    return toml::parse_file(path.string());
-  } catch (const toml::parse_error& error) {
-    throw std::runtime_error(fmt::format("{}:{}: {}", path.string(), error.source().begin.line, error.description()));
-  }
+constexpr int most_columns = 10'000;
+constexpr double longest_smoothing_s = 100;
+
+bool fits_header(const std::string& text) {
+  return text.find_first_of(",;\" ") == std::string::npos && printable(text, text.size()) == text;
 }
 
 DigestColumn read_column(TomlReader& table) {
@@ -31,6 +31,11 @@ DigestColumn read_column(TomlReader& table) {
   column.mean_decimals = table.integer("mean_decimals");
   column.extreme_decimals = table.integer("extreme_decimals");
   table.finish();
+  if (!fits_header(column.name) || column.name.find('_') != std::string::npos)
+    table.fail("name", "has an underscore, separator, quote or blank (it becomes part of a column's name)");
+  if (!fits_header(column.unit) || (column.unit.find('_') != std::string::npos && column.unit != "m_s"))
+    table.fail("unit",
+               "has an underscore, separator, quote or blank, and is not m_s (it becomes part of a column's name)");
   if (column.number < 1) table.fail("number", "columns are counted from 1");
   if (column.mean_decimals < 0 || column.mean_decimals > 15) table.fail("mean_decimals", "must lie between 0 and 15");
   if (column.extreme_decimals < 0 || column.extreme_decimals > 15) {
@@ -53,6 +58,7 @@ RawFile read_file(TomlReader& table) {
   file.file = table.text("raw_file");
   file.hash = table.text_or("raw_hash", "");
   file.header_lines = table.integer("header_lines");
+  if (file.header_lines < 0) table.fail("header_lines", "is negative");
   file.header = table.text_or("header", "");
   file.separator = read_separator(table);
   return file;
@@ -71,25 +77,40 @@ std::vector<RawFile> read_files(TomlReader& root, bool scatter) {
   return files;
 }
 
+void read_columns(TomlReader& reader, DigestSource& source) {
+  for (auto& table : reader.tables("columns")) {
+    DigestColumn column = read_column(table);
+    if (column.number > source.column_count)
+      table.fail("number", fmt::format("the raw file has column_count = {} columns", source.column_count));
+    for (const DigestColumn& other : source.columns)
+      if (other.name == column.name) table.fail("name", fmt::format("`{}` occurs twice", column.name));
+    source.columns.push_back(std::move(column));
+  }
+}
+
 }  // namespace
 
 DigestSource load_digest_source(const fs::path& toml_path) {
-  const auto root = parse_file(toml_path);
+  return parse_digest_source(read_text(toml_path, "a data folder has a source.toml that describes its raw files"),
+                             toml_path);
+}
+
+DigestSource parse_digest_source(std::string_view text, const fs::path& toml_path) {
+  const auto root = parse_toml(text, toml_path.string());
   TomlReader reader(root, toml_path.string());
   DigestSource source;
   source.scatter = reader.flag_or("scatter", false);
   source.files = read_files(reader, source.scatter);
   source.column_count = reader.integer("column_count");
+  if (source.column_count < 1 || source.column_count > most_columns)
+    reader.fail("column_count", fmt::format("must lie between 1 and {}", most_columns));
   source.time_column = reader.integer("time_column");
   source.time_scale = reader.has("time_scale") ? reader.positive_number("time_scale") : 1;
   source.bin_s = reader.positive_number("bin_s");
   source.smoothing_s = reader.has("smoothing_s") ? reader.positive_number("smoothing_s") : 0;
-  for (auto& table : reader.tables("columns")) {
-    source.columns.push_back(read_column(table));
-    if (source.columns.back().number > source.column_count) {
-      table.fail("number", fmt::format("the raw file has column_count = {} columns", source.column_count));
-    }
-  }
+  if (source.smoothing_s > longest_smoothing_s)
+    reader.fail("smoothing_s", fmt::format("is {}, must be {} s at most", source.smoothing_s, longest_smoothing_s));
+  read_columns(reader, source);
   if (source.time_column < 1 || source.time_column > source.column_count) {
     reader.fail("time_column", fmt::format("must lie between 1 and column_count = {}", source.column_count));
   }

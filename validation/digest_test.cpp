@@ -197,6 +197,42 @@ TEST_F(DigestFolder, ADescriptionThatMakesNoSenseNamesItsLineAndKey) {
   EXPECT_EQ(complaint(load).substr(0, toml.size() + 11), toml + ":1: colour:");
   write("source.toml", "raw_file = \n");
   EXPECT_EQ(complaint(load).substr(0, toml.size() + 3), toml + ":1:");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    text = small_source;
+    write("source.toml", text.replace(text.find(from), from.size(), to));
+    return complaint(load).substr(toml.size());
+  };
+  EXPECT_EQ(with("header_lines = 1", "header_lines = -1"), ":2: header_lines: is negative");
+  EXPECT_EQ(with("column_count = 3", "column_count = -3"), ":5: column_count: must lie between 1 and 10000");
+  EXPECT_EQ(with("smoothing_s = 0.004", "smoothing_s = 4e9"), ":9: smoothing_s: is 4000000000, must be 100 s at most");
+  EXPECT_EQ(with("name = \"H1\"", "name = \"P1\""), ":21: columns[1].name: `P1` occurs twice");
+  EXPECT_EQ(with("name = \"H1\"", "name = \"H\\u0000\"").substr(0, 22), ":21: columns[1].name: ");
+  EXPECT_EQ(with("name = \"H1\"", "name = \"H,1\""),
+            ":21: columns[1].name: has an underscore, separator, quote or blank (it becomes part of a column's name)");
+}
+
+TEST_F(DigestFolder, BinsThatMakeNoDigestAreRefused) {
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = small_source;
+    write("source.toml", text.replace(text.find(from), from.size(), to));
+    write("raw.dat", small_raw());
+    return complaint([&] { make_digests(folder_, folder_); }).substr((folder_ / "raw.dat").string().size());
+  };
+  EXPECT_EQ(with("bin_s = 0.01", "bin_s = 1e-12"),
+            ": times from 0 to 0.03 s make too many bins of 1e-12 s; are bin_s and the scale of time right?");
+  EXPECT_EQ(with("bin_s = 0.01", "bin_s = 0.02"),
+            ": b: fewer than two bins of 0.02 s are covered by samples; choose a narrower bin_s");
+  EXPECT_EQ(with("bin_s = 0.01", "bin_s = 0.0005").substr(0, 38), ": b: no sample between 0.0005 and 0.00");
+  write("source.toml", small_source);
+  write("raw.dat", "t a b\n0 0 0\n5 0 1.7e305\n8 0 1.7e305\n13 0 1.7e305\n17 0 1.7e305\n20 0 0\n");
+  EXPECT_NE(complaint([&] { make_digests(folder_, folder_); }).find(": b: its values are too large for means"),
+            std::string::npos);
+}
+
+TEST(MeasuredData, AColumnWithoutAWidthIsNoSmoothedMaximum) {
+  const auto data =
+      MeasuredData::parse("t_s,P1_mean_Pa,P1_min_Pa,P1_max_Pa,P1_max..ms_Pa\n0,1,1,1,1\n1,1,1,1,1\n", "digest.csv");
+  EXPECT_TRUE(data.series("P1").smoothed_maximum.empty());
 }
 
 TEST_F(DigestFolder, WhatIsNoDigestIsRefused) {

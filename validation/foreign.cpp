@@ -12,6 +12,7 @@
 #include "validation/curve.h"
 #include "validation/file_hash.h"
 #include "validation/manifest.h"
+#include "validation/printable.h"
 #include "validation/suggest.h"
 #include "validation/text_table.h"
 #include "validation/toml_reader.h"
@@ -114,8 +115,8 @@ std::size_t index_of(const TextTableReader& reader, const std::vector<std::strin
   const auto [end, error] = std::from_chars(column.data(), column.data() + column.size(), number);
   if (error == std::errc{} && end == column.data() + column.size() && number >= 1 && number <= names.size())
     return number - 1;
-  reader.fail(fmt::format("no column \"{}\"; there are {}: {} (is the separator right?)", column, names.size(),
-                          fmt::join(names, " | ")));
+  reader.fail(fmt::format("no column \"{}\"; there are {}: {} (is the separator right?)", printable(column),
+                          names.size(), printable(fmt::format("{}", fmt::join(names, " | ")), 500)));
 }
 
 /// Names of the columns: of the last header line, or numbers where there is none.
@@ -128,33 +129,29 @@ std::vector<std::string> column_names(TextTableReader& reader, const ForeignFile
   return numbers;
 }
 
-void to_si(std::vector<double>& values, const ForeignColumn& column) {
-  for (double& v : values) v = (v + column.offset) * column.factor;
-}
-
-ProbeTable read_file(const ForeignFile& f, std::int64_t& skipped) {
-  TextTableReader reader(f.file);
+ProbeTable read_file(TextTableReader& reader, const ForeignFile& f, std::int64_t& skipped) {
   const std::vector<std::string> names = column_names(reader, f);
   const std::size_t time = index_of(reader, names, f.time.column);
   std::vector<std::size_t> wanted{time};
   for (const ForeignColumn& column : f.columns) wanted.push_back(index_of(reader, names, column.column));
   auto columns = reader.read_rows(names, {f.separator, f.decimal_comma, wanted, f.skip_incomplete_rows}, time);
   skipped += reader.skipped();
-  auto times = std::move(columns[time]);
-  to_si(times, f.time);
+  auto times = columns[time];  // a copy, as below: one column may feed time and sensors
+  rescale_times(times, f.time.offset, f.time.factor, f.file, f.time.column);
   if (times.empty()) throw std::runtime_error(fmt::format("{}: holds no row behind its header", f.file.string()));
   std::vector<std::string> targets;
   std::vector<std::vector<double>> values;
   for (std::size_t k = 0; k < f.columns.size(); ++k) {
     targets.push_back(f.columns[k].target);
-    values.push_back(columns[wanted[k + 1]]);  // a copy: one column may feed two sensors
-    to_si(values.back(), f.columns[k]);
+    values.push_back(columns[wanted[k + 1]]);
+    rescale(values.back(), f.columns[k].offset, f.columns[k].factor, f.file, f.columns[k].column);
   }
   return {f.file, std::move(targets), std::move(times), std::move(values)};
 }
 
 /// Rows first .. last - 1 of the first table, and the others' series at their times.
-ProbeTable joined(const ForeignMap& map, const std::vector<ProbeTable>& tables) {
+ProbeTable joined(const ForeignMap& map, std::vector<ProbeTable> tables) {
+  if (tables.size() == 1) return std::move(tables.front());
   double begin_s = tables.front().times_s().front();
   double end_s = tables.front().times_s().back();
   for (const ProbeTable& t : tables) {
@@ -189,14 +186,18 @@ void refuse_repeated_sensors(const ForeignMap& map) {
 }  // namespace
 
 ForeignMap load_foreign_map(const fs::path& map) {
-  const toml::table table = parse_toml(read_text(map, "give the path of a map's TOML file"), map.string());
+  return parse_foreign_map(read_text(map, "give the path of a map's TOML file"), map);
+}
+
+ForeignMap parse_foreign_map(std::string_view text, const fs::path& map) {
+  const toml::table table = parse_toml(text, map.string());
   TomlReader reader(table, map.string());
   ForeignMap foreign;
   foreign.map = map;
   foreign.case_name = reader.text("case");
   foreign.solver = reader.text("solver");
   foreign.l0_m = reader.positive_number("l0_m");
-  const Case c = load_case(foreign.case_name);
+  const Case c = load_case_for(reader, foreign.case_name);
   for (TomlReader& file : reader.tables("files")) foreign.files.push_back(parse_file(file, c, map.parent_path()));
   reader.finish();
   refuse_repeated_sensors(foreign);
@@ -206,9 +207,24 @@ ForeignMap load_foreign_map(const fs::path& map) {
 ProbeTable read_foreign(const ForeignMap& map, std::int64_t* skipped) {
   std::vector<ProbeTable> tables;
   std::int64_t left_out = 0;
-  for (const ForeignFile& f : map.files) tables.push_back(read_file(f, left_out));
+  for (const ForeignFile& f : map.files) {
+    TextTableReader reader(f.file);
+    tables.push_back(read_file(reader, f, left_out));
+  }
   if (skipped != nullptr) *skipped = left_out;
-  return tables.size() == 1 ? std::move(tables.front()) : joined(map, tables);
+  return joined(map, std::move(tables));
+}
+
+ProbeTable parse_foreign(const ForeignMap& map, std::span<const std::string_view> texts) {
+  if (texts.size() != map.files.size())
+    throw std::invalid_argument(fmt::format("{} texts for {} files", texts.size(), map.files.size()));
+  std::vector<ProbeTable> tables;
+  std::int64_t left_out = 0;
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    TextTableReader reader(map.files[k].file, texts[k]);
+    tables.push_back(read_file(reader, map.files[k], left_out));
+  }
+  return joined(map, std::move(tables));
 }
 
 void import_foreign(const ForeignMap& map, const fs::path& directory) {

@@ -16,8 +16,11 @@
 // column's own unit. Series of later files are interpolated to the times of the first within the range of both.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "validation/case.h"
@@ -53,9 +56,15 @@ struct ForeignMap {
 /// Throws CaseError `file:line: key: message`: unknown keys, sensors that the case has not, units that do not fit.
 ForeignMap load_foreign_map(const std::filesystem::path& map);
 
+/// The same from text; `map` is what messages call it, and its folder that of the files.
+ForeignMap parse_foreign_map(std::string_view text, const std::filesystem::path& map);
+
 /// Reads the files into one table; `skipped` counts rows that were left out as incomplete. Throws std::runtime_error
 /// `file:line: message`: no such file or column, not a number, times that do not increase, rows of another length.
 ProbeTable read_foreign(const ForeignMap& map, std::int64_t* skipped = nullptr);
+
+/// The same with `texts`, one for each of the map's files, in their place.
+ProbeTable parse_foreign(const ForeignMap& map, std::span<const std::string_view> texts);
 
 /// Writes a run directory (run.json, probes.csv) that every report takes. Throws as above.
 void import_foreign(const ForeignMap& map, const std::filesystem::path& directory);

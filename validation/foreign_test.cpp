@@ -150,6 +150,34 @@ TEST_F(ForeignTest, BadMapsAreRefusedByLineAndKey) {
   EXPECT_THAT(refusal("[[files]]\nfile = \"a.csv\"\ndecimal_comma = true\n"), HasSubstr("decimal_comma"));
 }
 
+TEST_F(ForeignTest, OneColumnMayFeedTimeAndSensors) {
+  write("a.csv", "t,p\n0,1\n1,2\n");
+  const ProbeTable t = read(R"([[files]]
+file = "a.csv"
+time = { column = "t", unit = "s" }
+columns = [ { sensor = "P1", column = "t", unit = "Pa" }, { sensor = "P2", column = "t", unit = "kPa" } ]
+)");
+  EXPECT_THAT(t.times_s(), ElementsAre(0, 1));
+  EXPECT_THAT(t.values("P1_Pa"), ElementsAre(0, 1));
+  EXPECT_THAT(t.values("P2_Pa"), ElementsAre(0, 1000));
+}
+
+TEST_F(ForeignTest, ScalingThatLosesTheSeriesIsRefused) {
+  write("a.csv", "time_s,P1_Pa,H2_m\n0,1e307,0\n1e-9,1,0\n");
+  std::string text = plain;
+  EXPECT_THAT(refusal(text.replace(text.find("unit = \"s\""), 10, "unit = \"s\", offset_s = 1e12")),
+              AllOf(HasSubstr("a.csv: time_s: "), HasSubstr("do not stay apart")));
+  text = plain;
+  EXPECT_THAT(refusal(text.replace(text.find("unit = \"Pa\""), 11, "unit = \"MPa\"")),
+              AllOf(HasSubstr("a.csv: P1_Pa: "), HasSubstr("does not stay finite")));
+}
+
+TEST_F(ForeignTest, AnUnknownCaseIsNamedByLine) {
+  write("m.toml", "case = \"kleefman\"\nsolver = \"other\"\nl0_m = 0.02\n");
+  EXPECT_THAT([&] { load_foreign_map(directory / "m.toml"); },
+              testing::ThrowsMessage<CaseError>(HasSubstr("m.toml:1: case: no case `kleefman`")));
+}
+
 TEST_F(ForeignTest, AnImportedRunReadsLikeAnyOther) {
   write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0\n0.1,2,0.1\n");
   read(plain);

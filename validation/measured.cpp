@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
 #include "validation/file_hash.h"
+#include "validation/printable.h"
 #include "validation/series.h"
 
 namespace sluice {
@@ -35,7 +37,7 @@ std::vector<double> digest_column(const ProbeTable& table, const std::string& na
     throw std::runtime_error(
         fmt::format("{}:1: column {} is missing; a digest has <name>_mean_<unit>, <name>_min_<unit> and "
                     "<name>_max_<unit> for each series",
-                    table.path().string(), name));
+                    table.path().string(), printable(name)));
   }
   return table.values(name);
 }
@@ -47,8 +49,11 @@ void add_smoothed_maximum(const ProbeTable& table, MeasuredSeries& series) {
   for (const auto& header : table.names()) {
     if (!header.starts_with(begin) || !header.ends_with(end) || header.size() <= begin.size() + end.size()) continue;
     const auto digits = header.substr(begin.size(), header.size() - begin.size() - end.size());
-    if (digits.find_first_not_of("0123456789.") != std::string::npos) continue;
-    series.smoothing_s = 1e-3 * std::stod(digits);
+    double width_ms = 0;
+    const auto [last, error] = std::from_chars(digits.data(), digits.data() + digits.size(), width_ms);
+    if (error != std::errc{} || last != digits.data() + digits.size() || !(width_ms > 0) || !std::isfinite(width_ms))
+      continue;
+    series.smoothing_s = 1e-3 * width_ms;
     series.smoothed_maximum = table.values(header);
   }
 }
@@ -59,7 +64,7 @@ void check_bins(const MeasuredSeries& series, const std::string& file) {
       throw std::runtime_error(
           fmt::format("{}:{}: {}: minimum {} over maximum {}; make the digest anew with "
                       "\"sluice data digest\"",
-                      file, i + 2, series.name, series.minimum[i], series.maximum[i]));
+                      file, i + 2, printable(series.name), series.minimum[i], series.maximum[i]));
     }
   }
 }
@@ -67,10 +72,14 @@ void check_bins(const MeasuredSeries& series, const std::string& file) {
 }  // namespace
 
 MeasuredData MeasuredData::load(const std::filesystem::path& path) {
-  const ProbeTable table = read_probes(path);
-  MeasuredData data;
-  data.path_ = path;
-  data.hash_ = file_hash(path);
+  return {read_probes(path), file_hash(path)};
+}
+
+MeasuredData MeasuredData::parse(std::string_view text, const std::filesystem::path& path) {
+  return {parse_probes(text, path), text_hash(text)};
+}
+
+MeasuredData::MeasuredData(const ProbeTable& table, std::string hash) : path_(table.path()), hash_(std::move(hash)) {
   const double width = bin_width_s(table);
   for (const auto& header : table.names()) {
     const auto [marked_name, unit] = split_column_name(header);
@@ -88,14 +97,13 @@ MeasuredData MeasuredData::load(const std::filesystem::path& path) {
                           {}};
     add_smoothed_maximum(table, series);
     if (const std::string count = name + "_points_1"; table.has(count)) series.points = table.values(count);
-    check_bins(series, path.string());
-    data.names_.push_back(name);
-    data.series_.emplace(name, std::move(series));
+    check_bins(series, path_.string());
+    names_.push_back(name);
+    series_.emplace(name, std::move(series));
   }
-  if (data.names_.empty()) {
-    throw std::runtime_error(fmt::format("{}:1: no column <name>_mean_<unit>; this is not a digest", path.string()));
+  if (names_.empty()) {
+    throw std::runtime_error(fmt::format("{}:1: no column <name>_mean_<unit>; this is not a digest", path_.string()));
   }
-  return data;
 }
 
 bool MeasuredData::has(std::string_view name) const {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "validation/series.h"
+
 namespace sluice {
 
 /// One measured quantity in bins that touch each other. `mean` is the time-mean over the bin (so that mean * bin_s
@@ -37,6 +39,8 @@ class MeasuredData {
   MeasuredData() = default;
   /// Throws std::runtime_error naming file and line or column and the remedy.
   static MeasuredData load(const std::filesystem::path& path);
+  /// The same from text; `path` is what messages call it.
+  static MeasuredData parse(std::string_view text, const std::filesystem::path& path);
 
   bool has(std::string_view name) const;
   /// Throws std::out_of_range naming the file and the series that it has.
@@ -48,6 +52,8 @@ class MeasuredData {
   const std::string& hash() const { return hash_; }
 
  private:
+  MeasuredData(const ProbeTable& table, std::string hash);
+
   std::filesystem::path path_;
   std::string hash_;
   std::vector<std::string> names_;

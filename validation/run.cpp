@@ -10,6 +10,7 @@
 #include "validation/interrupt.h"
 #include "validation/manifest.h"
 #include "validation/plan.h"
+#include "validation/run_lock.h"
 #include "validation/run_loop.h"
 #include "validation/run_manifest.h"
 #include "validation/solver_factory.h"
@@ -40,6 +41,13 @@ void say(const RunOptions& options, RunLog& log, const std::string& text) {
     std::fflush(options.progress);
   }
   log.line(text);
+}
+
+void say_if_unlocked(const RunOptions& options, RunLog& log, const RunLock& lock) {
+  if (lock.held()) return;
+  say(options, log,
+      "warning: the file system of the run's directory knows no locks; see to it that no second program computes "
+      "there\n");
 }
 
 // Nothing has been computed yet; the directory still says what happened.
@@ -96,8 +104,9 @@ RunOutcome run_case(const Case& c, const RunSettings& settings, const RunOptions
   const Plan plan = plan_run(c, settings);
   const auto available = options.available_memory_bytes ? options.available_memory_bytes : available_memory_bytes();
   refuse_if_too_large(c, settings, plan, available);
-  prepare_run_directory(options.out, options.force);
+  const RunLock lock = prepare_run_directory(options.out, options.force);
   RunLog log(options.out / "log.txt");
+  say_if_unlocked(options, log, lock);
   say(options, log, what_runs(c, settings, options.out));
   say(options, log, describe(plan, available));
   const InterruptGuard guard;
@@ -111,6 +120,8 @@ RunOutcome run_case(const Case& c, const RunSettings& settings, const RunOptions
 }
 
 RunOutcome resume_run(const fs::path& directory, const ResumeOptions& options) {
+  header_of(directory);  // what holds no run is refused before a lock is put there
+  const RunLock lock(directory);
   RunHeader header = header_of(directory);
   const Case c = load_case(header.case_file);
   refuse_changed_case(c, header);
@@ -124,6 +135,7 @@ RunOutcome resume_run(const fs::path& directory, const ResumeOptions& options) {
   refuse_if_too_large(c, header.settings, plan_run(c, header.settings),
                       options.available_memory_bytes ? options.available_memory_bytes : available_memory_bytes());
   RunLog log(directory / "log.txt", true);
+  say_if_unlocked(run_options, log, lock);
   const InterruptGuard guard;
   const auto run = begin(c, header.settings, run_options, log, header.point);
   say(run_options, log, "resumed: " + what_runs(c, header.settings, directory));

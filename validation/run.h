@@ -45,8 +45,8 @@ struct RunOutcome {
 
 /// Builds the scene and the solver, steps to the end, samples the sensors, and writes run.json, probes.csv, log.txt and
 /// the snapshots asked for. A run that fails or is interrupted keeps what it computed, and run.json says so.
-/// Throws std::runtime_error when the run is refused before anything is written: not enough memory, or a directory that
-/// holds a run already (the message names the remedy).
+/// Throws std::runtime_error when the run is refused before anything is written: not enough memory, a directory that
+/// holds a run already, or one in which another program computes (the message names the remedy).
 RunOutcome run_case(const Case& c, const RunSettings& settings, const RunOptions& options);
 
 /// Goes on with a run from its checkpoint, as if it had never stopped: probes.csv, snapshots and manifest come out as

@@ -4,13 +4,19 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
+
+#include "validation/printable.h"
 
 namespace sluice {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
+/// Values are copied by recursion: without a limit a file could overflow the stack.
+constexpr int deepest_nesting = 100;
 
 const json* find(const json& root, std::string_view dotted) {
   const json* node = &root;
@@ -24,17 +30,28 @@ const json* find(const json& root, std::string_view dotted) {
   return node;
 }
 
-json read_manifest(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in)
+std::string manifest_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf()))
     throw std::runtime_error(fmt::format(
         "{}: no such file (a run directory needs run.json with \"case\", \"solver\" and \"l0_m\")", file.string()));
+  return text.str();
+}
+
+json manifest_from(std::string_view text, const fs::path& file) {
   try {
-    json manifest = json::parse(in);
+    json manifest = json::parse(text, [&file](int depth, json::parse_event_t, const json&) {
+      if (depth <= deepest_nesting) return true;
+      throw std::runtime_error(fmt::format("{}: is nested deeper than {} levels", file.string(), deepest_nesting));
+    });
     if (!manifest.is_object()) throw std::runtime_error(fmt::format("{}: is not a JSON object", file.string()));
     return manifest;
-  } catch (const json::parse_error& error) {
-    throw std::runtime_error(fmt::format("{}: is not valid JSON: {}", file.string(), error.what()));
+  } catch (const json::exception& error) {
+    // Its text begins with the exception's name in brackets.
+    const std::string_view text = error.what();
+    throw std::runtime_error(fmt::format("{}: is not valid JSON: {}", file.string(),
+                                         printable(text.substr(std::min(text.find("] ") + 2, text.size())), 500)));
   }
 }
 
@@ -85,16 +102,24 @@ std::vector<fs::path> RunRecord::snapshots() const {
 RunRecord read_run(const fs::path& directory) {
   if (!fs::is_directory(directory))
     throw std::runtime_error(fmt::format("{}: no such run directory (give the --out of a run)", directory.string()));
+  RunRecord run = parse_run(manifest_text(directory / "run.json"), directory);
+  run.probes = read_probes(directory / "probes.csv");
+  return run;
+}
+
+RunRecord parse_run(std::string_view manifest, const fs::path& directory) {
   RunRecord run;
   run.path = directory;
   const fs::path file = directory / "run.json";
-  run.manifest = read_manifest(file);
+  run.manifest = manifest_from(manifest, file);
   run.case_name = require(run.text("case"), file, "case", "\"kleefsman\"");
   run.solver = require(run.text("solver"), file, "solver", "\"name\"");
   run.l0_m = require(run.number("l0_m"), file, "l0_m", "0.02");
+  if (!(run.l0_m > 0))
+    throw std::runtime_error(
+        fmt::format("{}: l0_m: is {}, must be greater than zero (metres)", file.string(), run.l0_m));
   run.walls = run.text("walls").value_or("");
   run.own = run.manifest.contains("schema");
-  run.probes = read_probes(directory / "probes.csv");
   return run;
 }
 

@@ -41,4 +41,7 @@ struct RunRecord {
 /// Reads a run directory. Throws std::runtime_error naming the file and what is missing or malformed.
 RunRecord read_run(const std::filesystem::path& directory);
 
+/// The same from the text of its run.json alone, without probes; messages call it `directory`/run.json.
+RunRecord parse_run(std::string_view manifest, const std::filesystem::path& directory);
+
 }  // namespace sluice

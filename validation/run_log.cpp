@@ -33,10 +33,11 @@ void remove_old_run(const fs::path& directory) {
 
 }  // namespace
 
-void prepare_run_directory(const fs::path& directory, bool force) {
+RunLock prepare_run_directory(const fs::path& directory, bool force) {
   try {
     fs::create_directories(directory);
-    if (!fs::exists(directory / "run.json")) return;
+    RunLock lock(directory);
+    if (!fs::exists(directory / "run.json")) return lock;
     const std::string status = status_of(directory / "run.json");
     if (!force && fs::exists(directory / checkpoint_file))
       throw std::runtime_error(
@@ -47,6 +48,7 @@ void prepare_run_directory(const fs::path& directory, bool force) {
           fmt::format("{}: holds a run already, status {} (use --force to replace it, or choose another --out)",
                       directory.string(), status));
     remove_old_run(directory);
+    return lock;
   } catch (const fs::filesystem_error& error) {
     throw std::runtime_error(fmt::format("{}: cannot be prepared for a run: {} (choose another --out)",
                                          directory.string(), error.code().message()));

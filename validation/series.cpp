@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "validation/printable.h"
 #include "validation/text_table.h"
 
 namespace sluice {
@@ -60,26 +61,37 @@ std::vector<std::string> read_probe_header(TextTableReader& reader) {
   auto header = split_fields(reader.next_header_line(), ',');
   if (header.empty() || header[0] != "t_s") {
     reader.fail(fmt::format("the first column must be t_s, the time in seconds; rename or convert \"{}\"",
-                            header.empty() ? "" : header[0]));
+                            header.empty() ? "" : printable(header[0])));
   }
   std::map<std::string, int> seen;
   for (std::size_t k = 0; k < header.size(); ++k) {
     if (header[k].empty()) reader.fail(fmt::format("column {} has no name; write <sensor>_<unit>", k + 1));
+    if (printable(header[k], header[k].size()) != header[k])
+      reader.fail(fmt::format("the name of column {} holds a control character; rename it", k + 1));
     if (++seen[header[k]] > 1) reader.fail(fmt::format("column {} occurs twice; rename or delete one", header[k]));
   }
   return header;
 }
 
-}  // namespace
-
-ProbeTable read_probes(const std::filesystem::path& path) {
-  TextTableReader reader(path);
+ProbeTable read_table(TextTableReader& reader, const std::filesystem::path& path) {
   auto header = read_probe_header(reader);
   auto columns = reader.read_rows(header, ',', 0);
   auto times = std::move(columns.front());
   header.erase(header.begin());
   columns.erase(columns.begin());
   return {path, std::move(header), std::move(times), std::move(columns)};
+}
+
+}  // namespace
+
+ProbeTable read_probes(const std::filesystem::path& path) {
+  TextTableReader reader(path);
+  return read_table(reader, path);
+}
+
+ProbeTable parse_probes(std::string_view text, const std::filesystem::path& path) {
+  TextTableReader reader(path, text);
+  return read_table(reader, path);
 }
 
 void write_probes(const std::filesystem::path& path, const ProbeTable& table) {

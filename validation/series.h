@@ -65,6 +65,9 @@ class ProbeTable {
 /// increasing.
 ProbeTable read_probes(const std::filesystem::path& path);
 
+/// The same from text; `path` is what messages call it.
+ProbeTable parse_probes(std::string_view text, const std::filesystem::path& path);
+
 /// Writes a whole table; throws as ProbeWriter does.
 void write_probes(const std::filesystem::path& path, const ProbeTable& table);
 

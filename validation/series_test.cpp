@@ -107,6 +107,7 @@ TEST_F(ProbesFile, ErrorsNameLineAndColumn) {
             ":1: the first column must be t_s, the time in seconds; rename or convert \"time_s\"");
   EXPECT_EQ(complaint("t_s,P1_Pa,P1_Pa\n"), ":1: column P1_Pa occurs twice; rename or delete one");
   EXPECT_EQ(complaint("t_s,,P1_Pa\n"), ":1: column 2 has no name; write <sensor>_<unit>");
+  EXPECT_EQ(complaint("t_s,P1\x1b_Pa\n"), ":1: the name of column 2 holds a control character; rename it");
   EXPECT_EQ(complaint("t_s,P1_Pa\n0,1\n1,x\n"),
             ":3: P1_Pa: \"x\" is not a number; write numbers with a decimal point, and leave nothing empty");
   EXPECT_EQ(complaint("t_s,P1_Pa\n0,1\n1,2.5kPa\n").substr(0, 18), ":3: P1_Pa: \"2.5kPa");

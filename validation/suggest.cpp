@@ -6,8 +6,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "validation/printable.h"
+
 namespace sluice {
 namespace {
+
+constexpr std::size_t longest_list = 1000;
 
 // Levenshtein distance with one row of the table at a time.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -33,6 +37,8 @@ std::optional<std::string> closest(std::string_view name, const std::vector<std:
   const std::size_t allowed = name.size() < 4 ? 1 : std::max<std::size_t>(2, name.size() / 3);
   std::size_t best_distance = allowed + 1;
   for (const std::string& candidate : candidates) {
+    // At least so many letters would have to be added.
+    if (std::max(name.size(), candidate.size()) - std::min(name.size(), candidate.size()) > allowed) continue;
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < best_distance) {
       best_distance = distance;
@@ -44,7 +50,7 @@ std::optional<std::string> closest(std::string_view name, const std::vector<std:
 
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates) {
   if (auto near = closest(name, candidates)) return fmt::format(" (did you mean `{}`?)", *near);
-  return fmt::format(" (known: {})", fmt::join(candidates, ", "));
+  return fmt::format(" (known: {})", printable(fmt::format("{}", fmt::join(candidates, ", ")), longest_list));
 }
 
 }  // namespace sluice

@@ -1,19 +1,27 @@
 #include "validation/text_table.h"
 
 #include <fmt/format.h>
-#include <libfccp/csv.h>
 
+#include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
+
+#include "validation/printable.h"
 
 namespace sluice {
 
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::size_t longest_line = 1 << 20;  // bytes
+constexpr std::size_t longest_message = 1000;  // of what quotes a file
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(blanks);
@@ -35,16 +43,26 @@ bool is_gap(std::string_view field) {
   return field.empty() || field == "nan" || field == "NaN" || field == "NAN" || field == "-nan";
 }
 
-std::unique_ptr<io::LineReader> open_lines(const std::filesystem::path& path) {
+/// What to do about a field that is no number. Two separators in one file, or another one than was announced, leave
+/// theirs in a field.
+std::string_view remedy_of(std::string_view field) {
+  if (field.find_first_of(";\t ") != std::string_view::npos)
+    return "it holds a separator: write one and the same between all columns";
+  if (field.find(',') != std::string_view::npos)
+    return "write numbers with a decimal point, or announce decimal commas";
+  return "write numbers with a decimal point, and leave nothing empty";
+}
+
+std::unique_ptr<std::istream> open_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) {
     throw std::runtime_error(fmt::format("{}: is a directory; name the file in it", path.string()));
   }
-  try {
-    return std::make_unique<io::LineReader>(path.string());
-  } catch (const io::error::can_not_open_file& error) {
+  auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
+  if (!*file) {
     throw std::runtime_error(fmt::format("{}: cannot be opened ({}); check the path and the permissions", path.string(),
-                                         std::generic_category().message(error.errno_value)));
+                                         std::generic_category().message(errno)));
   }
+  return file;
 }
 
 }  // namespace
@@ -56,38 +74,80 @@ std::vector<std::string> split_fields(std::string_view line, char separator) {
   return fields;
 }
 
-TextTableReader::TextTableReader(std::filesystem::path path) : path_(std::move(path)), lines_(open_lines(path_)) {}
+void rescale(std::vector<double>& values, double offset, double factor, const std::filesystem::path& file,
+             const std::string& name) {
+  for (double& value : values) {
+    value = (value + offset) * factor;
+    if (!std::isfinite(value))
+      throw std::runtime_error(
+          fmt::format("{}: {}: a value does not stay finite with offset {} and factor {}; are they "
+                      "right?",
+                      file.string(), printable(name), offset, factor));
+  }
+}
+
+void rescale_times(std::vector<double>& times, double offset, double factor, const std::filesystem::path& file,
+                   const std::string& name) {
+  rescale(times, offset, factor, file, name);
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (!(times[i] > times[i - 1]))
+      throw std::runtime_error(
+          fmt::format("{}: {}: times do not stay apart with offset {} and factor {}; are they right?", file.string(),
+                      printable(name), offset, factor));
+}
+
+TextTableReader::TextTableReader(std::filesystem::path path) : path_(std::move(path)), in_(open_file(path_)) {}
+
+TextTableReader::TextTableReader(std::filesystem::path path, std::string_view text)
+    : path_(std::move(path)), in_(std::make_unique<std::istringstream>(std::string(text))) {}
 
 TextTableReader::~TextTableReader() = default;
 
 void TextTableReader::fail(const std::string& message) const {
-  throw std::runtime_error(fmt::format("{}:{}: {}", path_.string(), lines_->get_file_line(), message));
+  throw std::runtime_error(fmt::format("{}:{}: {}", path_.string(), line_number_, printable(message, longest_message)));
 }
 
 std::string TextTableReader::next_header_line() {
-  const bool first = lines_->get_file_line() == 0;
-  const char* line = lines_->next_line();
-  if (line) return line;
+  const bool first = line_number_ == 0;
+  if (next_line()) return line_;
   if (first) throw std::runtime_error(fmt::format("{}: the file is empty; it needs a header line", path_.string()));
   fail("the file ends within its header");
 }
 
-const char* TextTableReader::next_line() {
-  if (std::exchange(has_ahead_, false)) return ahead_.c_str();
-  return lines_->next_line();
+bool TextTableReader::take_line() {
+  line_.clear();
+  for (std::array<char, 4096> piece{};; in_->clear()) {
+    in_->getline(piece.data(), piece.size());
+    const auto count = static_cast<std::size_t>(in_->gcount());
+    if (in_->bad())
+      throw std::runtime_error(fmt::format("{}: cannot be read to its end; check the disk", path_.string()));
+    line_.append(piece.data(), in_->good() ? count - 1 : count);  // the line's end counts
+    if (!in_->fail() || in_->eof()) return count > 0 || !line_.empty();
+    if (line_.size() > longest_line) fail("the next line is longer than a megabyte; this is no table of numbers");
+  }
+}
+
+bool TextTableReader::next_line() {
+  if (std::exchange(ahead_, false)) return true;
+  if (!take_line()) return false;
+  if (++line_number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
+  if (line_.ends_with('\r')) line_.pop_back();
+  if (line_.find('\0') != std::string::npos)
+    fail("a NUL byte: this is no plain text (UTF-16 or binary?); save the file as text in UTF-8");
+  return true;
 }
 
 std::size_t TextTableReader::count_fields(char separator) {
-  ahead_ = next_header_line();
-  has_ahead_ = true;
-  return split_fields(ahead_, separator).size();
+  const auto count = split_fields(next_header_line(), separator).size();
+  ahead_ = true;
+  return count;
 }
 
 double TextTableReader::number(std::string_view field, const std::string& name, bool decimal_comma) const {
   std::string with_point;
   if (decimal_comma && field.find(',') != std::string_view::npos) {
     if (field.find('.') != std::string_view::npos)
-      fail(fmt::format("{}: \"{}\" has a point where decimal commas were announced", name, field));
+      fail(fmt::format("{}: \"{}\" has a point where decimal commas were announced", name, printable(field)));
     with_point = field;
     with_point[with_point.find(',')] = '.';
     field = with_point;
@@ -95,11 +155,10 @@ double TextTableReader::number(std::string_view field, const std::string& name, 
   if (field.starts_with('+')) field.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error == std::errc::result_out_of_range) fail(fmt::format("{}: \"{}\" does not fit a double", name, field));
-  if (error != std::errc{} || end != field.data() + field.size()) {
-    fail(fmt::format("{}: \"{}\" is not a number; write numbers with a decimal point, and leave nothing empty", name,
-                     field));
-  }
+  if (error == std::errc::result_out_of_range)
+    fail(fmt::format("{}: \"{}\" does not fit a double", name, printable(field)));
+  if (error != std::errc{} || end != field.data() + field.size())
+    fail(fmt::format("{}: \"{}\" is not a number; {}", name, printable(field), remedy_of(field)));
   if (!std::isfinite(value)) fail(fmt::format("{}: {} is not finite; leave the row out", name, field));
   return value;
 }
@@ -146,8 +205,8 @@ std::vector<std::vector<double>> TextTableReader::read_rows(const std::vector<st
   wanted_.assign(names.size(), form.wanted.empty());
   for (const std::size_t column : form.wanted) wanted_.at(column) = true;
   bool blank_seen = false;
-  while (const char* text = next_line()) {
-    const std::string_view line = trimmed(text);
+  while (next_line()) {
+    const std::string_view line = trimmed(line_);
     if (line.empty()) {
       blank_seen = true;
       continue;

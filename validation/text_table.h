@@ -5,19 +5,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <istream>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace io {
-class LineReader;
-}
-
 namespace sluice {
 
 /// Splits a line; ' ' as separator stands for any run of blanks and tabs. Blanks around a field are dropped.
 std::vector<std::string> split_fields(std::string_view line, char separator);
+
+/// value = (value + offset) * factor. Throws std::runtime_error "file: name: ..." when a value does not stay finite.
+void rescale(std::vector<double>& values, double offset, double factor, const std::filesystem::path& file,
+             const std::string& name);
+/// The same; throws also when the times do not stay apart.
+void rescale_times(std::vector<double>& times, double offset, double factor, const std::filesystem::path& file,
+                   const std::string& name);
 
 /// How the rows of a file are written.
 struct RowForm {
@@ -33,6 +37,8 @@ class TextTableReader {
  public:
   /// Throws when the file cannot be opened.
   explicit TextTableReader(std::filesystem::path path);
+  /// Reads `text` as if it stood in the file.
+  TextTableReader(std::filesystem::path path, std::string_view text);
   ~TextTableReader();
 
   /// Throws when the file ends before it; an empty file is called empty.
@@ -55,20 +61,24 @@ class TextTableReader {
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
-  const char* next_line();
+  /// Puts the next line as it stands into line_; false when there is none.
+  bool take_line();
+  /// The same, without what is no text in it.
+  bool next_line();
   /// False when the row is left out.
   bool read_row(std::string_view line, const std::vector<std::string>& names, const RowForm& form);
   double number(std::string_view field, const std::string& name, bool decimal_comma) const;
   void check_time(const std::vector<double>& times, const std::string& name) const;
 
   std::filesystem::path path_;
-  std::unique_ptr<io::LineReader> lines_;
+  std::unique_ptr<std::istream> in_;
+  std::string line_;
+  std::size_t line_number_ = 0;
+  bool ahead_ = false;  ///< line_ was looked at before its time
   std::vector<std::vector<double>> columns_;
   std::vector<bool> wanted_;
   std::vector<double> row_;
   std::int64_t skipped_ = 0;
-  std::string ahead_;  ///< a line that was looked at before its time
-  bool has_ahead_ = false;
 };
 
 }  // namespace sluice

@@ -8,10 +8,13 @@
 #include <sstream>
 
 #include "validation/case.h"
+#include "validation/printable.h"
 #include "validation/suggest.h"
 
 namespace sluice {
 namespace {
+
+constexpr std::size_t longest_message = 1500;
 
 std::string_view type_name(const toml::node& node) {
   switch (node.type()) {
@@ -32,6 +35,37 @@ std::string_view type_name(const toml::node& node) {
   }
 }
 
+/// Index behind the string that begins at `at`, or the text's size when it has no end.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string marks(text.substr(at, 3) == std::string(3, quote) ? 3 : 1, quote);
+  for (std::size_t i = at + marks.size(); i < text.size(); ++i) {
+    if (text.substr(i, marks.size()) == marks) return i + marks.size();
+    if (text[i] == '\n' && marks.size() == 1) return i;
+    if (text[i] == '\\' && quote == '"') ++i;
+  }
+  return text.size();
+}
+
+/// The library takes tables apart by recursion, so that a key of a hundred thousand parts would overflow the stack.
+void refuse_deep_keys(std::string_view text, const std::string& file) {
+  constexpr int most_dots = 20;
+  int dots = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char ch = text[i];
+    if (ch == '"' || ch == '\'') {
+      i = end_of_string(text, i) - 1;
+    } else if (ch == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (std::string_view("\n=,{}[]").find(ch) != std::string_view::npos) {
+      dots = 0;
+    } else if (ch == '.' && ++dots > most_dots) {
+      const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n');
+      throw_case_error(file, static_cast<int>(line), "syntax", fmt::format("a key of more than {} parts", most_dots));
+    }
+  }
+}
+
 int line_of(const toml::node& node) {
   return static_cast<int>(node.source().begin.line);
 }
@@ -39,10 +73,11 @@ int line_of(const toml::node& node) {
 }  // namespace
 
 void throw_case_error(const std::string& file, int line, std::string_view key, std::string_view message) {
-  throw CaseError(fmt::format("{}:{}: {}: {}", file, line, key, message));
+  throw CaseError(fmt::format("{}:{}: {}: {}", file, line, printable(key), printable(message, longest_message)));
 }
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
+  refuse_deep_keys(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
@@ -55,6 +90,14 @@ std::string read_text(const std::filesystem::path& file, std::string_view remedy
   std::ostringstream text;
   if (!in || !(text << in.rdbuf())) throw CaseError(fmt::format("{}: cannot be read ({})", file.string(), remedy));
   return text.str();
+}
+
+Case load_case_for(const TomlReader& reader, const std::string& name_or_path) {
+  try {
+    return load_case(name_or_path);
+  } catch (const CaseError& error) {
+    reader.fail("case", error.what());
+  }
 }
 
 TomlReader::TomlReader(const toml::table& table, std::string file, std::string path)
@@ -111,7 +154,9 @@ std::optional<double> TomlReader::optional_number(std::string_view key) {
 int TomlReader::integer(std::string_view key) {
   const toml::node& node = require(key, "an integer");
   if (!node.is_integer()) fail(key, fmt::format("is {}, must be an integer", type_name(node)));
-  return *node.value<int>();
+  const auto value = node.value<int>();
+  if (!value) fail(key, fmt::format("is {}, too large", *node.value<std::int64_t>()));
+  return *value;
 }
 
 std::string TomlReader::text(std::string_view key) {

@@ -23,6 +23,12 @@ toml::table parse_toml(std::string_view text, const std::string& file);
 /// The text of a file. Throws CaseError "file: cannot be read (remedy)".
 std::string read_text(const std::filesystem::path& file, std::string_view remedy);
 
+class TomlReader;
+struct Case;
+
+/// load_case(), for a file whose key `case` names it: throws CaseError at that key.
+Case load_case_for(const TomlReader& reader, const std::string& name_or_path);
+
 /// Remembers which keys were asked for, so that finish() can refuse the rest. The table must outlive the reader.
 class TomlReader {
  public:

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "reports/report.h"
+#include "validation/cli/campaign_slurm.h"
 #include "validation/cli/commands.h"
+#include "validation/cli/usage_error.h"
 #include "validation/plan.h"
 #include "validation/run.h"
 
@@ -25,6 +29,11 @@ struct Arguments {
   bool dry_run = false;
   bool force = false;
   bool no_report = false;
+  bool report_only = false;
+  std::string only;
+  std::string engine = "local";
+  std::string partition;
+  std::string time_limit;
 };
 
 /// What came of one run.
@@ -130,12 +139,42 @@ void report_cases(const Campaign& campaign, const fs::path& out) {
   }
 }
 
-int run(const Arguments& arguments) {
-  const fs::path file = arguments.file;
-  const fs::path out = arguments.out.empty() ? fs::path("runs") / file.stem() : fs::path(arguments.out);
-  const Campaign campaign = load_campaign(file, out, arguments.threads);
-  print_plan(campaign, arguments.force);
-  if (arguments.dry_run) return 0;
+/// 0 when all runs are finished.
+int report_only(const Campaign& campaign, const fs::path& out) {
+  report_cases(campaign, out);
+  int code = 0;
+  for (const CampaignRun& run : campaign.runs) {
+    const CampaignState state = state_of(campaign, run);
+    if (state == CampaignState::finished) continue;
+    fmt::print("{:12} {}\n", to_string(state), run.directory.filename().string());
+    code = 1;
+  }
+  return code;
+}
+
+/// What a task of a job array does: one run, from wherever it stands.
+int compute_only(const Campaign& campaign, const Arguments& arguments) {
+  const auto run = std::find_if(campaign.runs.begin(), campaign.runs.end(),
+                                [&](const CampaignRun& r) { return r.directory.filename() == arguments.only; });
+  if (run == campaign.runs.end())
+    throw UsageError(fmt::format("--only: {} has no run {} (--dry-run lists them)", arguments.file, arguments.only));
+  const CampaignState before = state_of(campaign, *run);
+  if (before == CampaignState::finished && !arguments.force) {
+    fmt::print("{}: finished already\n", arguments.only);
+    return 0;
+  }
+  const double share_before = estimate(campaign, *run).done_share;
+  const RunOutcome outcome = compute(campaign, *run, arguments);
+  if (outcome.status == "failed") throw std::runtime_error(fmt::format("{}: {}", arguments.only, outcome.error));
+  // Who puts an interrupted run back into a queue must not do so for ever.
+  if (outcome.status == "interrupted" && estimate(campaign, *run).done_share <= share_before)
+    throw std::runtime_error(
+        fmt::format("{}: interrupted before it had made a single step (give it more time)", arguments.only));
+  fmt::print("{}: {}\n", arguments.only, outcome.status);
+  return outcome.exit_code;
+}
+
+int compute_and_report(const Campaign& campaign, const Arguments& arguments, const fs::path& out) {
   std::vector<Result> results;
   const int interrupted = compute_all(campaign, arguments, results);
   const bool all_well = print_results(campaign, results);
@@ -147,6 +186,33 @@ int run(const Arguments& arguments) {
   return all_well ? 0 : 1;
 }
 
+int run_on_slurm(Campaign& campaign, const Arguments& arguments, const fs::path& out) {
+  SlurmOptions& slurm = campaign.slurm;
+  if (!arguments.partition.empty()) slurm.partition = arguments.partition;
+  if (!arguments.time_limit.empty()) slurm.time_limit = arguments.time_limit;
+  if (arguments.threads > 0) slurm.threads = arguments.threads;
+  if (const std::string problem = slurm_problem(slurm); !problem.empty()) throw UsageError(problem);
+  if (arguments.force)
+    throw UsageError(
+        "--force: not with --engine slurm, whose tasks go on with what they find (remove the runs' folders)");
+  return submit(campaign, {arguments.file, out, arguments.checkpoint_every_s, !arguments.no_report, arguments.dry_run});
+}
+
+int run(const Arguments& arguments) {
+  const fs::path file = arguments.file;
+  const fs::path out = arguments.out.empty() ? fs::path("runs") / file.stem() : fs::path(arguments.out);
+  Campaign campaign = load_campaign(file, out, arguments.threads);
+  const bool slurm = arguments.engine == "slurm";
+  if (!slurm && (!arguments.partition.empty() || !arguments.time_limit.empty()))
+    throw UsageError("--partition and --time-limit are for --engine slurm");
+  if (arguments.report_only) return report_only(campaign, out);
+  if (!arguments.only.empty()) return compute_only(campaign, arguments);
+  if (slurm && arguments.dry_run) return run_on_slurm(campaign, arguments, out);  // prints nothing but the scripts
+  print_plan(campaign, arguments.force);
+  if (slurm) return run_on_slurm(campaign, arguments, out);
+  return arguments.dry_run ? 0 : compute_and_report(campaign, arguments, out);
+}
+
 }  // namespace
 
 void add_campaign(CLI::App& app, int& exit_code) {
@@ -154,21 +220,33 @@ void add_campaign(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
   command->add_option("FILE", arguments->file, "Campaign, such as validation/campaigns/quick.toml")->required();
   command->add_option("--out", arguments->out, "Directory of its runs and reports (default: runs/<file's name>)");
-  command->add_option("--threads", arguments->threads, "Threads of each run (default: all processors)")
+  command
+      ->add_option("--threads", arguments->threads,
+                   "Threads of each run (default: all processors; with Slurm, the file's or 1)")
       ->check(CLI::Range(1, 1024));
   command->add_option("--checkpoint-every", arguments->checkpoint_every_s, "Seconds between checkpoints of a run")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_flag("--dry-run", arguments->dry_run, "Print the plan, and stop");
+  command->add_flag("--dry-run", arguments->dry_run, "Print the plan (with Slurm, the batch scripts), and stop");
   command->add_flag("--force", arguments->force, "Compute finished runs again");
   command->add_flag("--no-report", arguments->no_report, "Runs only");
+  command->add_flag("--report-only", arguments->report_only, "Report the runs that are finished, and compute none");
+  command->add_option("--only", arguments->only, "Compute this run only, named as in the plan, and make no report");
+  command->add_option("--engine", arguments->engine, "Where it is computed: here, or as a job array of a Slurm cluster")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  command->add_option("--partition", arguments->partition, "Slurm: partition (default: the file's, or the cluster's)");
+  command->add_option(
+      "--time-limit", arguments->time_limit,
+      "Slurm: of one run's task, such as 12:00:00; a task that runs out of it goes back into the queue");
   command->footer(
       "Finished runs whose inputs have not changed are kept, unfinished ones go on from their checkpoints, failed ones "
       "are\n"
       "told and do not stop the others. Interrupted, the same command goes on.\n\n"
       "Examples:\n"
       "  sluice campaign validation/campaigns/quick.toml --dry-run\n"
-      "  sluice campaign validation/campaigns/nightly.toml --out runs/nightly");
+      "  sluice campaign validation/campaigns/nightly.toml --out runs/nightly\n"
+      "  sluice campaign validation/campaigns/nightly.toml --engine slurm --partition compute --time-limit 12:00:00");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 

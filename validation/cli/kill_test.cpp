@@ -1,4 +1,5 @@
-// Real runs are killed at random moments and resumed until they end; they must come out as runs in one go.
+// Real runs are killed at random moments and resumed until they end; they must come out as runs in one go. Two programs
+// at once in one run directory there cannot be.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -108,6 +109,20 @@ TEST_P(Killed, RunsComeOutAsInOneGo) {
   EXPECT_GT(resumed, kills / 3);
   EXPECT_EQ(contents(parts / "probes.csv"), contents(whole / "probes.csv"));
   EXPECT_EQ(read_run(parts).number("steps"), read_run(whole).number("steps"));
+}
+
+TEST_P(Killed, NoSecondProgramComesInUntilTheFirstIsDead) {
+  const fs::path out = directory / "shared";
+  const pid_t first = start(run_arguments(out));
+  while (!fs::exists(out / checkpoint_file)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(kill(first, SIGSTOP), 0);  // it cannot end meanwhile
+  const std::string manifest = contents(out / "run.json");
+  EXPECT_EQ(wait_for(start({"resume", out.string()})), 1);
+  EXPECT_EQ(wait_for(start(run_arguments(out))), 1) << "even by force";
+  EXPECT_EQ(contents(out / "run.json"), manifest);
+  kill(first, SIGKILL);
+  ASSERT_EQ(wait_for(first), -SIGKILL);
+  EXPECT_EQ(wait_for(start({"resume", out.string()})), 0) << "death lets go of the lock";
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Killed, testing::Values("wcsph", "mps"));

@@ -1,0 +1,50 @@
+#include "validation/run_directory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace sluice {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string complaint(const std::string& manifest) {
+  try {
+    parse_run(manifest, "runs/x");
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(RunDirectory, ThreeLinesSuffice) {
+  const RunRecord run = parse_run(R"({"case": "kleefsman", "solver": "interFoam", "l0_m": 0.02})", "runs/x");
+  EXPECT_EQ(run.case_name, "kleefsman");
+  EXPECT_EQ(run.l0_m, 0.02);
+  EXPECT_FALSE(run.own);
+  EXPECT_EQ(run.label(), "interFoam, l0 = 0.02 m");
+  EXPECT_FALSE(run.number("particles.fluid").has_value());
+}
+
+TEST(RunDirectory, ManifestsThatCannotBeUsedAreRefused) {
+  EXPECT_THAT(complaint(""), StartsWith("runs/x/run.json: is not valid JSON: parse error at line 1, column 1"));
+  EXPECT_THAT(complaint("[1]"), StartsWith("runs/x/run.json: is not a JSON object"));
+  EXPECT_THAT(complaint(R"({"case": "c", "solver": "s", "l0_m": 1e999})"),
+              StartsWith("runs/x/run.json: is not valid JSON: number overflow"));
+  EXPECT_THAT(complaint(R"({"case": "c", "solver": "s"})"),
+              AllOf(StartsWith("runs/x/run.json: l0_m: is missing"), HasSubstr("\"l0_m\": 0.02")));
+  EXPECT_THAT(complaint(R"({"case": "c", "solver": 3, "l0_m": 0.02})"), StartsWith("runs/x/run.json: solver: "));
+  EXPECT_THAT(complaint(R"({"case": "c", "solver": "s", "l0_m": -0.02})"), StartsWith("runs/x/run.json: l0_m: "));
+  EXPECT_THAT(complaint("{\"a\": \x7f}"), HasSubstr("\\x7f"));
+}
+
+TEST(RunDirectory, DeepNestingIsRefused) {
+  EXPECT_EQ(complaint(std::string(1'000'000, '[')), "runs/x/run.json: is nested deeper than 100 levels");
+}
+
+}  // namespace
+}  // namespace sluice

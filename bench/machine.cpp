@@ -1,7 +1,6 @@
 // The machine's own peaks, as far as portable C++ reaches them: fused multiply-adds on vectors held in registers, and
 // the triad a = b + s c of STREAM over arrays that no cache holds. The roofs of the roofline figure.
 #include <benchmark/benchmark.h>
-#include <fmt/format.h>
 
 #include <array>
 #include <experimental/simd>
@@ -38,7 +37,7 @@ template <class Real>
 void time_multiply_add(benchmark::State& state, int threads) {
   Real factor = static_cast<Real>(0.999);
   benchmark::DoNotOptimize(factor);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     Real sum{};
 #pragma omp parallel for num_threads(threads) schedule(static, 1) reduction(+ : sum)
     for (int t = 0; t < threads; ++t) sum += multiply_add(factor, static_cast<Real>(0.001));
@@ -73,7 +72,7 @@ void time_triad(benchmark::State& state, double array_bytes, int threads) {
   const TriadArrays arrays(n, threads);
   double s = 3;
   benchmark::DoNotOptimize(s);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     double* const a = arrays.a.get();
     const double* const b = arrays.b.get();
     const double* const c = arrays.c.get();
@@ -88,20 +87,16 @@ void time_triad(benchmark::State& state, double array_bytes, int threads) {
   state.SetBytesProcessed(elements * static_cast<std::int64_t>(3 * sizeof(double)));
 }
 
-template <class Time>
-void add(const std::string& name, int threads, Time&& time) {
-  time_by_threads(benchmark::RegisterBenchmark(fmt::format("machine/{}/threads:{}", name, threads).c_str(), time),
-                  threads);
-}
-
 }  // namespace
 
 void add_machine_benchmarks(const SuiteOptions& options) {
+  const double bytes = options.machine_array_bytes;
   for (const int threads : options.threads) {
-    add("multiply_add_float", threads, [=](benchmark::State& state) { time_multiply_add<float>(state, threads); });
-    add("multiply_add_double", threads, [=](benchmark::State& state) { time_multiply_add<double>(state, threads); });
-    add("triad", threads,
-        [=, bytes = options.machine_array_bytes](benchmark::State& state) { time_triad(state, bytes, threads); });
+    add_benchmark("machine/multiply_add_float", threads,
+                  [=](benchmark::State& state) { time_multiply_add<float>(state, threads); });
+    add_benchmark("machine/multiply_add_double", threads,
+                  [=](benchmark::State& state) { time_multiply_add<double>(state, threads); });
+    add_benchmark("machine/triad", threads, [=](benchmark::State& state) { time_triad(state, bytes, threads); });
   }
 }
 

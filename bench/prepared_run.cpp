@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
+#include "validation/manifest.h"
 #include "validation/solver_factory.h"
 
 namespace sluice::bench {
@@ -37,9 +39,9 @@ double particle_distance_m(const Case& c, double fluid_particles) {
   return std::cbrt(volume_m3 / fluid_particles);
 }
 
-PreparedRun::PreparedRun(const Case& the_case, const RunSettings& run_settings, double jitter)
-    : c(the_case),
-      settings(run_settings),
+PreparedRun::PreparedRun(Case the_case, RunSettings run_settings, double jitter)
+    : c(std::move(the_case)),
+      settings(std::move(run_settings)),
       scene(disordered_scene(c, settings, jitter)),
       solver(make_solver(c, scene, settings)),
       sensors(c, scene, solver->smoothing_length_m(), settings.solver, settings.walls) {}
@@ -60,11 +62,13 @@ StepMeter::StepMeter(const Solver& solver)
       steps_(static_cast<double>(solver.steps())),
       time_s_(solver.time_s()),
       iterations_(iterations(solver)),
+      cpu_s_(cpu_time_s()),
       start_(std::chrono::steady_clock::now()) {}
 
 StepMeter::Reading StepMeter::read() const {
   Reading r;
   r.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  r.cpu_s = cpu_time_s() - cpu_s_;
   r.steps = static_cast<double>(solver_.steps()) - steps_;
   r.simulated_s = solver_.time_s() - time_s_;
   if (r.steps > 0) r.iterations_a_step = (iterations(solver_) - iterations_) / r.steps;

@@ -23,7 +23,7 @@ void disorder(Scene& scene, double jitter);
 double particle_distance_m(const Case& c, double fluid_particles);
 
 struct PreparedRun {
-  PreparedRun(const Case& the_case, const RunSettings& run_settings, double jitter);
+  PreparedRun(Case the_case, RunSettings run_settings, double jitter);
 
   Case c;
   RunSettings settings;
@@ -43,6 +43,7 @@ class StepMeter {
   struct Reading {
     double steps = 0;
     double wall_s = 0;
+    double cpu_s = 0;  ///< of all threads
     double simulated_s = 0;
     double iterations_a_step = 0;  ///< of the pressure equation; zero for a solver that has none
     PhaseTimes phases;
@@ -57,6 +58,7 @@ class StepMeter {
   double steps_;
   double time_s_;
   double iterations_;
+  double cpu_s_;
   std::chrono::steady_clock::time_point start_;
 };
 

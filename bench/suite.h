@@ -36,8 +36,11 @@ using MakeKernel = std::function<Kernel(double particles, int threads)>;
 /// and where operations are counted flops_per_second and flops_per_byte; `omp_threads` beside them.
 void add_kernel(const std::string& name, const SuiteOptions& options, const MakeKernel& make);
 
-/// One thread is timed by its processor time, which other programs on the machine hardly disturb; several by the clock.
-void time_by_threads(benchmark::internal::Benchmark* added, int threads);
+using Timing = std::function<void(benchmark::State&)>;
+
+/// Registers a benchmark. One thread is timed by its processor time, which other programs on the machine hardly
+/// disturb; several by the clock.
+benchmark::internal::Benchmark* add_benchmark(const std::string& name, int threads, Timing timing);
 
 /// "1e5" or "2.5e5", for names.
 std::string count_name(double count);

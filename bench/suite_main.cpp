@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "bench/suite.h"
@@ -33,9 +34,10 @@ void add_provenance() {
   benchmark::AddCustomContext("flags", sluice::build_info().flags);
 }
 
-void initialise_google_benchmark(char* program, std::vector<std::string> options) {
-  std::vector<char*> argv{program};
-  for (std::string& option : options) argv.push_back(option.data());
+/// `arguments` are the program's name and the options that it has not taken itself.
+void initialise_google_benchmark(std::vector<std::string> arguments) {
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
   auto argc = static_cast<int>(argv.size());
   argv.push_back(nullptr);
   benchmark::Initialize(&argc, argv.data());
@@ -64,7 +66,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
-    initialise_google_benchmark(argv[0], app.remaining());
+    std::vector<std::string> rest = app.remaining();
+    rest.insert(rest.begin(), argv[0]);
+    initialise_google_benchmark(std::move(rest));
     add_provenance();
     sluice::bench::add_machine_benchmarks(options);
     sluice::bench::add_wcsph_kernels(options);

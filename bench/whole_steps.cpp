@@ -43,6 +43,7 @@ void report(benchmark::State& state, const WholeSteps& w, const Solver& solver, 
   counters["fluid_particles"] = fluid;
   counters["solid_particles"] = static_cast<double>(solver.solid_count());
   counters["ns_per_particle_step"] = 1e9 * r.wall_s / (r.steps * fluid);
+  counters["cpu_ns_per_particle_step"] = 1e9 * r.cpu_s / (r.steps * fluid);
   counters["wall_s_per_simulated_s"] = r.wall_s / r.simulated_s;
   counters["memory_bytes"] = bytes;
   counters["bytes_per_particle"] = bytes / (fluid + static_cast<double>(solver.solid_count()));
@@ -59,18 +60,16 @@ void time_steps(benchmark::State& state, const WholeSteps& w) {
   Solver& solver = *run.solver;
   for (int k = 0; k < 3; ++k) solver.step();
   const StepMeter meter(solver);
-  for (auto _ : state) solver.step();
+  while (state.KeepRunning()) solver.step();
   const StepMeter::Reading reading = meter.read();
   state.SetItemsProcessed(state.iterations() * solver.fluid_count());
   report(state, w, solver, reading);
 }
 
 void add(const WholeSteps& w) {
-  benchmark::RegisterBenchmark(fmt::format("{}/threads:{}", w.name_without_threads(), w.threads).c_str(),
-                               [w](benchmark::State& state) { time_steps(state, w); })
+  add_benchmark(w.name_without_threads(), w.threads, [w](benchmark::State& state) { time_steps(state, w); })
       ->Iterations(timed_steps(w.particles))
-      ->Unit(benchmark::kMillisecond)
-      ->UseRealTime();
+      ->Unit(benchmark::kMillisecond);
 }
 
 }  // namespace

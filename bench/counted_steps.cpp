@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "bench/prepared_run.h"
@@ -23,12 +24,18 @@ int main(int argc, char** argv) {
   std::string walls;
   double particles = 5000;
   int steps = 10;
-  app.add_option("SOLVER", solver, "wcsph or mps")->required();
-  app.add_option("WALLS", walls, "Wall model")->required();
+  bool provenance = false;
+  app.add_option("SOLVER", solver, "wcsph or mps");
+  app.add_option("WALLS", walls, "Wall model");
   app.add_option("--particles", particles, "Fluid particles")->check(CLI::Range(5e3, 1e7))->capture_default_str();
   app.add_option("--steps", steps, "Steps")->check(CLI::Range(1, 100000))->capture_default_str();
+  app.add_flag("--provenance", provenance, "Only print machine, commit, compiler and flags, as JSON");
   CLI11_PARSE(app, argc, argv);
   try {
+    if (provenance) {
+      fmt::print("{}\n", nlohmann::json(sluice::bench::provenance()).dump());
+      return 0;
+    }
     const sluice::bench::PreparedRun run = sluice::bench::prepare(solver, walls, particles, 1);
     sluice::bench::counted_steps(*run.solver, steps);
     fmt::print("{} {}\n", run.solver->fluid_count(), run.solver->steps());

@@ -1,7 +1,6 @@
 #include "bench/prepared_run.h"
 
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "validation/manifest.h"
@@ -54,6 +53,15 @@ PreparedRun prepare(const std::string& solver, const std::string& walls, double 
   request.l0_m = particle_distance_m(c, fluid_particles);
   request.threads = threads;
   return {c, resolve_settings(c, request), jitter_over_distance};
+}
+
+std::map<std::string, std::string> provenance() {
+  const BuildInfo& build = build_info();
+  return {{"machine", machine_fingerprint()},
+          {"cpu", cpu_model()},
+          {"commit", build.commit},
+          {"compiler", build.compiler},
+          {"flags", build.flags}};
 }
 
 StepMeter::StepMeter(const Solver& solver)

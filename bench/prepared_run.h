@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,9 @@ struct PreparedRun {
 
 /// The dam break of Kleefsman et al. with about so many fluid particles, displaced by up to a fifth of l0.
 PreparedRun prepare(const std::string& solver, const std::string& walls, double fluid_particles, int threads);
+
+/// What a ledger must know of where numbers come from: machine, cpu, commit, compiler, flags of this build.
+std::map<std::string, std::string> provenance();
 
 /// What a solver's steps cost between the meter's making and its reading.
 class StepMeter {

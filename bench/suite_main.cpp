@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "bench/prepared_run.h"
 #include "bench/suite.h"
-#include "validation/manifest.h"
 
 namespace {
 
@@ -24,14 +24,6 @@ std::vector<int> thread_numbers() {
   for (int n = 1; n < processors; n *= 2) numbers.push_back(n);
   numbers.push_back(processors);
   return numbers;
-}
-
-/// What a ledger must know of where the numbers come from.
-void add_provenance() {
-  benchmark::AddCustomContext("cpu", sluice::cpu_model());
-  benchmark::AddCustomContext("commit", sluice::build_info().commit);
-  benchmark::AddCustomContext("compiler", sluice::build_info().compiler);
-  benchmark::AddCustomContext("flags", sluice::build_info().flags);
 }
 
 /// `arguments` are the program's name and the options that it has not taken itself.
@@ -69,7 +61,7 @@ int main(int argc, char** argv) {
     std::vector<std::string> rest = app.remaining();
     rest.insert(rest.begin(), argv[0]);
     initialise_google_benchmark(std::move(rest));
-    add_provenance();
+    for (const auto& [key, value] : sluice::bench::provenance()) benchmark::AddCustomContext(key, value);
     sluice::bench::add_machine_benchmarks(options);
     sluice::bench::add_wcsph_kernels(options);
     sluice::bench::add_mps_kernels(options);

@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "bench/prepared_run.h"
@@ -26,8 +25,9 @@ std::vector<int> thread_numbers() {
   return numbers;
 }
 
-/// `arguments` are the program's name and the options that it has not taken itself.
-void initialise_google_benchmark(std::vector<std::string> arguments) {
+/// `arguments` are the program's name and the options that it has not taken itself. They must stay: Google Benchmark
+/// keeps the name by its address.
+void initialise_google_benchmark(std::vector<std::string>& arguments) {
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   auto argc = static_cast<int>(argv.size());
@@ -57,10 +57,11 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1e3, 1e11))
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
+  std::vector<std::string> arguments;
   try {
-    std::vector<std::string> rest = app.remaining();
-    rest.insert(rest.begin(), argv[0]);
-    initialise_google_benchmark(std::move(rest));
+    arguments = app.remaining();
+    arguments.insert(arguments.begin(), argv[0]);
+    initialise_google_benchmark(arguments);
     for (const auto& [key, value] : sluice::bench::provenance()) benchmark::AddCustomContext(key, value);
     sluice::bench::add_machine_benchmarks(options);
     sluice::bench::add_wcsph_kernels(options);

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/prepared_run.h"
 #include "validation/case.h"
 #include "validation/run_settings.h"
 #include "validation/sensors.h"
-#include "validation/solver_factory.h"
 
 namespace {
 
@@ -23,18 +23,6 @@ struct Stretch {
   double to_s = 0.3;
   double jitter = 0;  ///< in particle distances
 };
-
-/// Displaces the fluid by up to jitter l0 along every axis, the same way each time: disorder at once, for sizes at
-/// which the flow takes an hour to make it.
-void disorder(Scene& scene, double jitter) {
-  std::uint32_t state = 12345;
-  const auto displacement_m = [&] {
-    state = state * 1664525U + 1013904223U;
-    return jitter * scene.description.particle_distance_m * (2.0 * (state >> 8) / 16777216.0 - 1);
-  };
-  for (Vec3d& x : scene.fluid)
-    for (double* coordinate : {&x.x, &x.y, &x.z}) *coordinate += displacement_m();
-}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -57,42 +45,30 @@ double run_to(Solver& solver, const SensorArray& sensors, double to_s, double ra
 }
 
 void measure(const Case& c, const RunSettings& settings, const Stretch& stretch) {
-  Scene scene = build_scene(scene_description(c, settings));
-  disorder(scene, stretch.jitter);
-  const auto solver = make_solver(c, scene, settings);
-  const SensorArray sensors(c, scene, solver->smoothing_length_m(), settings.solver, settings.walls);
-  run_to(*solver, sensors, stretch.from_s, settings.output_rate_Hz);
+  const bench::PreparedRun run(c, settings, stretch.jitter);
+  Solver& solver = *run.solver;
+  run_to(solver, run.sensors, stretch.from_s, settings.output_rate_Hz);
+  const std::map<std::string, double> facts = solver.facts();
+  const bench::StepMeter meter(solver);
+  const double sensors_s = run_to(solver, run.sensors, stretch.to_s, settings.output_rate_Hz);
+  const bench::StepMeter::Reading r = meter.read();
 
-  const PhaseTimes before = solver->phases();
-  const std::int64_t first_step = solver->steps();
-  const double first_time_s = solver->time_s();
-  const std::map<std::string, double> facts = solver->facts();
-  const auto start = std::chrono::steady_clock::now();
-  const double sensors_s = run_to(*solver, sensors, stretch.to_s, settings.output_rate_Hz);
-  const double wall_s = seconds_since(start);
-
-  const auto steps = static_cast<double>(solver->steps() - first_step);
-  const auto fluid = static_cast<double>(solver->fluid_count());
-  const auto bytes = static_cast<double>(solver->memory_bytes());
+  const auto fluid = static_cast<double>(solver.fluid_count());
+  const auto bytes = static_cast<double>(solver.memory_bytes());
   fmt::print("{} {} walls, l0 = {} m, {} threads: {:.0f} fluid and {} solid particles\n", settings.solver,
-             settings.walls, settings.l0_m, settings.threads, fluid, solver->solid_count());
+             settings.walls, settings.l0_m, settings.threads, fluid, solver.solid_count());
   fmt::print("  {:8.3f} million fluid particle-steps a second ({:.0f} steps in {:.2f} s)\n",
-             1e-6 * fluid * steps / wall_s, steps, wall_s);
-  fmt::print("  {:8.1f} ms a step, {:.2f} s of wall time a simulated second\n", 1e3 * wall_s / steps,
-             wall_s / (solver->time_s() - first_time_s));
+             1e-6 * fluid * r.steps / r.wall_s, r.steps, r.wall_s);
+  fmt::print("  {:8.1f} ms a step, {:.2f} s of wall time a simulated second\n", 1e3 * r.wall_s / r.steps,
+             r.wall_s / r.simulated_s);
   if (const auto pairs = facts.find("pairs_in_reach"); pairs != facts.end())
     fmt::print(
         "  {:8.1f} neighbours a fluid particle, {:.0f} million one-sided pair interactions a second and thread\n",
-        pairs->second / fluid, 1e-6 * pairs->second * steps / wall_s / settings.threads);
-  if (facts.contains("iterations_mean"))
-    fmt::print("  {:8.1f} iterations a step since the start, {:.0f} at most\n", solver->facts().at("iterations_mean"),
-               solver->facts().at("iterations_max"));
-  fmt::print("  {:8.0f} bytes a particle\n", bytes / (fluid + static_cast<double>(solver->solid_count())));
-  for (const auto& [phase, total_s] : solver->phases()) {
-    const auto earlier = before.find(phase);
-    fmt::print("  {:6.1f} %  {}\n", 100 * (total_s - (earlier == before.end() ? 0 : earlier->second)) / wall_s, phase);
-  }
-  fmt::print("  {:6.1f} %  sensors\n\n", 100 * sensors_s / wall_s);
+        pairs->second / fluid, 1e-6 * pairs->second * r.steps / r.wall_s / settings.threads);
+  if (r.iterations_a_step > 0) fmt::print("  {:8.1f} iterations a step\n", r.iterations_a_step);
+  fmt::print("  {:8.0f} bytes a particle\n", bytes / (fluid + static_cast<double>(solver.solid_count())));
+  for (const auto& [phase, phase_s] : r.phases) fmt::print("  {:6.1f} %  {}\n", 100 * phase_s / r.wall_s, phase);
+  fmt::print("  {:6.1f} %  sensors\n\n", 100 * sensors_s / r.wall_s);
 }
 
 }  // namespace

@@ -62,8 +62,7 @@ void MpsSolver<Pack>::list_rows() {
   particles_.permute_fluid(fluid_index_.order(), threads_);
   next_velocity_.resize(particles_.size());
   particles_.encode_positions(tank_.domain(), first, threads_);
-  list_.list(particles_, {fluid_index_, first}, {walls_.index, walls_.first, &walls_.proximity},
-             {dummies_.index, dummies_.first, &dummies_.proximity}, reach_, threads_);
+  list_.list(particles_, fluid_set(), wall_set(), dummy_set(), reach_, threads_);
   const auto listed = [&](const std::vector<double>& from, std::vector<double>& to) {
     to.assign(from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
   };

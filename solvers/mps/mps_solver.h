@@ -61,6 +61,13 @@ class MpsSolver final : public Solver {
   const PressureEquation<Pack>& pressure_equation() const { return pressure_equation_; }
   const Parameters& parameters() const { return constants_.parameters; }
   const LatticeConstants& lattice() const { return constants_.lattice; }
+  // What the operators of a step are given.
+  const OperatorConstants& constants() const { return constants_; }
+  const Reach& reach() const { return reach_; }
+  SearchSet fluid_set() const { return {fluid_index_, particles_.first_fluid()}; }
+  SearchSet wall_set() const { return walls_.set(); }
+  SearchSet dummy_set() const { return dummies_.set(); }
+  const VectorField<double>& normals_of_walls() const { return wall_normals_; }
   /// Replaces the velocity of the fluid particle with an id: for tests with known answers.
   void set_velocity(std::int32_t id, const Vec3d& velocity_m_s);
 
@@ -69,6 +76,7 @@ class MpsSolver final : public Solver {
   struct Solids {
     Solids(const RowGeometry& geometry, std::vector<std::int32_t> which)
         : walls(std::move(which)), index(geometry), proximity(index) {}
+    SearchSet set() const { return {index, first, &proximity}; }
     std::int64_t memory_bytes() const { return bytes(walls) + index.memory_bytes() + proximity.memory_bytes(); }
 
     std::vector<std::int32_t> walls;

@@ -266,6 +266,23 @@ void Multigrid<Real>::correct_and_smooth(Level& fine, const Level& coarse) {
 }
 
 template <class Real>
+std::vector<LevelSize> Multigrid<Real>::level_sizes() const {
+  std::vector<LevelSize> sizes;
+  for (std::size_t l = 0; l < static_cast<std::size_t>(used_levels_); ++l) {
+    const PressureMatrix<Real>& matrix = levels_[l]->matrix;
+    LevelSize size;
+    for (std::size_t i = matrix.begin; i < matrix.end; ++i) {
+      if (matrix.has_row[i] == 0) continue;
+      const Span row = matrix.near.entries[i];
+      ++size.unknowns;
+      size.entries += row.end - row.begin;
+    }
+    sizes.push_back(size);
+  }
+  return sizes;
+}
+
+template <class Real>
 std::int64_t Multigrid<Real>::memory_bytes() const {
   std::int64_t sum = 0;
   for (const auto& l : levels_) {

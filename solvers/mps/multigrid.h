@@ -24,6 +24,12 @@ struct CellAddress {
   std::int32_t z = 0;
 };
 
+/// How much work a level is.
+struct LevelSize {
+  std::int64_t unknowns = 0;
+  std::int64_t entries = 0;  ///< off the diagonal; on the finest level those of near neighbours, which smooth
+};
+
 template <class Real>
 class Multigrid {
  public:
@@ -43,6 +49,8 @@ class Multigrid {
   void apply(std::span<const double> r, std::span<double> z);
 
   int levels() const { return used_levels_; }
+  /// Of the matrix at hand, the finest level first.
+  std::vector<LevelSize> level_sizes() const;
   std::int64_t memory_bytes() const;
 
  private:

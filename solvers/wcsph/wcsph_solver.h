@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "solvers/cell_rows.h"
@@ -46,15 +47,17 @@ class WcsphSolver final : public Solver {
 
   const Particles<Pack>& fluid() const { return fluid_; }
   const Particles<Pack>& walls() const { return walls_; }
+  // What the pair sums of a step are given.
+  Sorted<Pack> sorted_fluid() const { return {fluid_, fluid_index_, travel_m_}; }
+  SortedWalls<Pack> sorted_walls() const { return {{walls_, wall_index_, wall_travel_m_}, wall_proximity_}; }
+  std::span<const std::int32_t> wet_walls() const { return wet_walls_; }
+  const PairConstants<Pack>& constants() const { return constants_; }
   /// Replaces velocity and density deviation of the fluid particle with an id: for tests with known answers.
   void set_fluid(std::int32_t id, const Vec3d& velocity_m_s, double density_deviation_kg_m3);
   /// Ordered pairs (fluid particle, another particle within the kernel's radius) at this instant.
   std::int64_t count_pairs() const;
 
  private:
-  Sorted<Pack> sorted_fluid() const { return {fluid_, fluid_index_, travel_m_}; }
-  SortedWalls<Pack> sorted_walls() const { return {{walls_, wall_index_, wall_travel_m_}, wall_proximity_}; }
-
   void place_fluid(const Scene& scene);
   void place_walls(const Scene& scene);
   void fill_hydrostatically(Particles<Pack>& particles, std::size_t i, double still_level_m) const;

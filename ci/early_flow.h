@@ -1,6 +1,6 @@
 // What every term of a solver has left its mark on, while the flow is still smooth: the fluid's energies and its
-// compression before anything breaks. Rounding does not grow there, so that these values repeat from build to build, and
-// a coefficient that is a few per cent off shows where it would drown in the scatter of the spray later.
+// compression before anything breaks. Rounding does not grow there, so that these values repeat from build to build,
+// and a coefficient that is a few per cent off shows where it would drown in the scatter of the spray later.
 #pragma once
 
 #include <optional>

@@ -61,6 +61,7 @@ class Runs {
 /// How the page writes values: as value_text() does.
 std::string form_of(const MetricSeries& series) {
   if (series.kind().family == Family::cost || series.key.metric == "finished") return "plain";
+  if (series.kind().better == Better::unchanged) return "plain";
   if (series.unit == "1") return "percent";
   return series.unit == "s" ? "milliseconds" : "plain";
 }

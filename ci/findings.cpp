@@ -52,9 +52,12 @@ void match_acceptances(SeriesFindings& found, const std::string& id, const Ledge
 }
 
 State state_of(const Finding& finding, const MetricKind& kind, double level_now) {
-  if (!kind.alarms || finding.verdict == Verdict::better || finding.verdict == Verdict::moved) return State::note;
+  const bool harmless = finding.verdict == Verdict::moved && kind.better != Better::unchanged;
+  if (!kind.alarms || finding.verdict == Verdict::better || harmless) return State::note;
   if (finding.acceptance != nullptr) return State::accepted;
   if (finding.verdict == Verdict::missing) return State::open;
+  if (kind.better == Better::unchanged)
+    return std::abs(level_now - finding.shift.before) < finding.shift.threshold / 2 ? State::fixed : State::open;
   const double limit = badness(kind.better, finding.shift.before) + finding.shift.threshold / 2;
   return badness(kind.better, level_now) < limit ? State::fixed : State::open;
 }
@@ -86,7 +89,8 @@ void add_missing(SeriesFindings& found) {
 }
 
 bool is_percentage(const MetricSeries& series) {
-  return series.kind().family == Family::accuracy && series.unit == "1" && series.key.metric != "finished";
+  return series.kind().family == Family::accuracy && series.unit == "1" && series.key.metric != "finished" &&
+         series.kind().better != Better::unchanged;
 }
 
 bool is_time_difference(const MetricSeries& series) {

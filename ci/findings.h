@@ -15,7 +15,7 @@ namespace sluice::ci {
 enum class Verdict {
   worse,
   better,
-  moved,    ///< to another value that is neither, such as -4 % to +4 %
+  moved,    ///< to another value that is neither, such as -4 % to +4 %; an alarm where values are to stay unchanged
   missing,  ///< the last runs gave no value where earlier ones did
 };
 

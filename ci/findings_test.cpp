@@ -63,6 +63,19 @@ TEST(Findings, CostsKnowTheirDirection) {
   EXPECT_EQ(findings(steps("finished", {{0, 1}, {10, 0}}, 12))[0].verdict, Verdict::worse);
 }
 
+TEST(Findings, AValueThatIsToStayAlarmsBothWaysUntilItIsBack) {
+  for (const double moved : {0.0999, 0.1001}) {
+    const auto open = findings(steps("compression", {{0, 0.1}, {10, moved}}, 12));
+    ASSERT_EQ(open.size(), 1u) << moved;
+    EXPECT_EQ(open[0].verdict, Verdict::moved) << moved;
+    EXPECT_EQ(open[0].state, State::open) << moved;
+    const auto back = findings(steps("compression", {{0, 0.1}, {10, moved}, {13, 0.1}}, 18));
+    ASSERT_EQ(back.size(), 2u) << moved;
+    EXPECT_EQ(back[0].state, State::fixed) << moved;
+  }
+  EXPECT_TRUE(findings(steps("compression", {{0, 0.1}, {10, 0.10001}}, 12)).empty()) << "rounding";
+}
+
 TEST(Findings, WorseIsOpenUntilAcceptedOrMended) {
   Ledger ledger = steps("impulse_deviation", {{0, 0.03}, {10, 0.06}}, 12);
   const auto open = findings(ledger);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ci/early_flow.h"
 #include "reports/analysis.h"
 #include "validation/acceptance.h"
 #include "validation/file_hash.h"
@@ -111,19 +112,32 @@ std::string reading_name(const std::string& sensor, const std::string& model) {
   return model.empty() ? sensor : sensor + " " + model;
 }
 
+/// A run that was asked to end before a window does owes no value there.
+bool owes_window_of(const RunRecord& run, const Case& c, const std::string& sensor) {
+  const CaseSensor* known = c.find_sensor(sensor);
+  const double window_end_s = known != nullptr ? comparison_window(c, *known).end_s : c.window.end_s;
+  const auto asked_end_s = run.number("t_end_s");
+  return !asked_end_s || *asked_end_s + 2 / c.output_rate_Hz >= window_end_s;
+}
+
 void add_accuracy(Collector& collector, const ReportData& data, const AnalysedRun& run) {
-  if (!data.headline_sensors().empty())
-    collector.add("mean_impulse_error", "", mean_impulse_error(data, run), "1",
-                  "a headline sensor has no impulse deviation");
+  const auto mean_error = mean_impulse_error(data, run);
+  if (!data.headline_sensors().empty() && (mean_error || owes_window_of(run.record, data.the_case, "")))
+    collector.add("mean_impulse_error", "", mean_error, "1", "a headline sensor has no impulse deviation");
   for (const SensorReading& reading : run.readings) {
     if (!reading.primary || data.measured_series(reading.sensor) == nullptr) continue;
     const std::vector<std::string>& remarks = reading.comparison.remarks;
-    for (const std::string_view metric : tracked_metrics(reading.kind))
-      collector.add(metric, reading_name(reading.sensor, reading.model), sensor_metric(metric, reading.comparison),
-                    unit_of_metric(metric), remarks.empty() ? "" : remarks.front());
+    const bool owed = owes_window_of(run.record, data.the_case, reading.sensor);
+    for (const std::string_view metric : tracked_metrics(reading.kind)) {
+      const auto value = sensor_metric(metric, reading.comparison);
+      if (value || owed)
+        collector.add(metric, reading_name(reading.sensor, reading.model), value, unit_of_metric(metric),
+                      remarks.empty() ? "" : remarks.front());
+    }
   }
   for (const AcceptanceCheck& check : run.acceptance) {
     if (check.verdict == AcceptanceVerdict::not_applicable) continue;
+    if (!check.value && !owes_window_of(run.record, data.the_case, check.row.sensor)) continue;
     std::string model = check.row.model;
     if (const SensorReading* primary = run.primary(check.row.sensor); model.empty() && primary != nullptr)
       model = primary->model;
@@ -132,6 +146,15 @@ void add_accuracy(Collector& collector, const ReportData& data, const AnalysedRu
   }
   for (const AcceptanceMetric& metric : acceptance_metrics())
     if (!metric.needs_sensor) collector.add_if_stated(metric.name, run_metric(metric.name, run.record), metric.unit);
+}
+
+void add_early_flow(Collector& collector, const ReportData& data, const AnalysedRun& run) {
+  const double end_s = early_flow_end_s(data.the_case.water_height_m, -data.the_case.gravity_m_s2.z);
+  const auto flow = early_flow(run.record.probes, end_s);
+  if (!flow) return;
+  collector.add("kinetic_energy_share", "", flow->kinetic_energy_share, "1");
+  collector.add("energy_lost_share", "", flow->energy_lost_share, "1");
+  collector.add("compression", "", flow->compression, "1");
 }
 
 void add_cost(Collector& collector, const RunRecord& run) {
@@ -168,6 +191,7 @@ std::vector<Result> results_of_run(const fs::path& directory, const Provenance& 
   if (!status.empty()) collector.add("finished", "", finished ? 1 : 0, "1");
   if (finished) {
     add_accuracy(collector, data, run);
+    add_early_flow(collector, data, run);
     add_cost(collector, run.record);
   }
   return collector.take();

@@ -103,6 +103,20 @@ TEST_F(FromRunTest, WhatARunShouldHaveGivenAndDidNotIsRecorded) {
   EXPECT_THAT(arrival->reason, HasSubstr("no simulated arrival"));
 }
 
+TEST_F(FromRunTest, ARunThatWasAskedToEndBeforeTheWindowOwesNothingThere) {
+  write({.t_end_s = 0.32}, {{"t_end_s", 0.32}});
+  for (const Result& r : results_of_run(directory)) EXPECT_TRUE(r.value) << r.metric << " " << r.of;
+  write({.t_end_s = 0.32}, {{"t_end_s", 6.0}});
+  EXPECT_FALSE(find(results_of_run(directory), "mean_impulse_error")->value);
+}
+
+TEST_F(FromRunTest, TheEarlyFlowOfEveryRunThatTellsItsEnergies) {
+  write();
+  const auto results = results_of_run(directory);
+  ASSERT_NE(find(results, "kinetic_energy_share"), nullptr);
+  EXPECT_NEAR(find(results, "kinetic_energy_share")->value.value(), 100.0 / 900, 1e-12);
+}
+
 TEST_F(FromRunTest, AFailedRunIsNotFinishedAndNothingElse) {
   write({.status = "failed"});
   const auto results = results_of_run(directory);

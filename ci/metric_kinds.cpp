@@ -14,6 +14,11 @@ MetricKind accuracy(std::string_view name, Better better, double absolute, std::
   return {name, Family::accuracy, better, false, true, {absolute, 0, repeatable}, meaning};
 }
 
+/// A value of the early flow, that only a change of the method moves.
+MetricKind early(std::string_view name, double relative, std::string_view meaning) {
+  return {name, Family::accuracy, Better::unchanged, false, true, {0, relative, repeatable}, meaning};
+}
+
 MetricKind timing(std::string_view name, Better better, double relative, bool alarms, std::string_view meaning) {
   return {name, Family::cost, better, true, alarms, {0, relative, false}, meaning};
 }
@@ -39,6 +44,9 @@ std::vector<MetricKind> make_kinds() {
       accuracy("lost_through_walls", smaller, 0.5, "fluid particles that passed a wall"),
       accuracy("lost_over_top_share", smaller, 0.002, "fluid particles that left over the top / all at the start"),
       accuracy("fluid_volume_deviation", nearest_zero, 1e-4, "volume on the lattice against nominal, at the start"),
+      early("kinetic_energy_share", 5e-4, "kinetic energy at 1.2 sqrt(H/g) / potential energy at the start"),
+      early("energy_lost_share", 5e-4, "energy lost / potential energy at the start, mean up to 1.2 sqrt(H/g)"),
+      early("compression", 5e-4, "greatest density ratio - 1, mean up to 1.2 sqrt(H/g)"),
       accuracy("finished", larger, 0.5, "1 when the run came to its end"),
       timing("cpu_time_s", smaller, 0.03, true, "processor time, all threads"),
       timing("wall_time_s", smaller, 0.03, true, "wall time"),
@@ -84,6 +92,7 @@ double badness(Better better, double level) {
       return -level;
     case Better::nearest_zero:
       return std::abs(level);
+    case Better::unchanged:
     case Better::unknown:
       break;
   }
@@ -102,6 +111,8 @@ std::string_view to_string(Better better) {
       return "larger";
     case Better::nearest_zero:
       return "nearest zero";
+    case Better::unchanged:
+      return "unchanged";
     case Better::unknown:
       break;
   }

@@ -11,8 +11,9 @@ namespace sluice::ci {
 
 enum class Family { accuracy, cost };
 
-/// `nearest_zero`: a signed deviation. `unknown`: shown, never judged.
-enum class Better { smaller, larger, nearest_zero, unknown };
+/// `nearest_zero`: a signed deviation. `unchanged`: neither way is better, and every shift is to be explained.
+/// `unknown`: shown, never judged.
+enum class Better { smaller, larger, nearest_zero, unchanged, unknown };
 
 struct MetricKind {
   std::string_view name;

@@ -73,6 +73,35 @@ columns = [ { sensor = "P1", column = "Press_0 [kPa]", unit = "kPa", offset = -1
   EXPECT_NEAR(t.values("P1_Pa")[1], 1000, 1e-9);
 }
 
+/// A file for each gauge of the water level, with the gauge's own place in further columns; pressures of the measuring
+/// tool under lines that say where its points are.
+TEST_F(ForeignTest, TheFormOfDualSphysicsGauges) {
+  const std::string head = "time [s];swlx [m];swly [m];swlz [m];pos0x [m];pos0y [m];pos0z [m]\n";
+  write("GaugesSWL_H2.csv", head + "0;0.992;0.5;0;0.992;0.5;0\n0.05;0.992;0.5;0.01;0.992;0.5;0\n");
+  write("GaugesSWL_H4.csv", head + "0;2.638;0.5;0.55;2.638;0.5;0\n0.05;2.638;0.5;0.549;2.638;0.5;0\n");
+  write("PointsPressure_Press.csv",
+        " ;PosX [m]:;0.8245;0.8245\n ;PosY [m]:;0.4745;0.4745\n ;PosZ [m]:;0.021;0.061\n"
+        "Part;Time [s];Press_0 [Pa];Press_1 [Pa]\n0;0;0;0\n1;0.05;12.5;-3e-1\n");
+  std::string map;
+  for (const char* gauge : {"H2", "H4"})
+    map += std::string("[[files]]\nfile = \"GaugesSWL_") + gauge +
+           ".csv\"\nseparator = \";\"\ntime = { column = \"time [s]\", unit = \"s\" }\ncolumns = [ { sensor = \"" +
+           gauge + "\", column = \"swlz [m]\", unit = \"m\" } ]\n";
+  const ProbeTable t = read(map + R"([[files]]
+file = "PointsPressure_Press.csv"
+separator = ";"
+header_lines = 4
+time = { column = "Time [s]", unit = "s" }
+columns = [
+  { sensor = "P1", column = "Press_0 [Pa]", unit = "Pa" },
+  { sensor = "P2", column = "Press_1 [Pa]", unit = "Pa" },
+]
+)");
+  EXPECT_THAT(t.names(), ElementsAre("H2_m", "H4_m", "P1_Pa", "P2_Pa"));
+  EXPECT_THAT(t.values("H4_m"), ElementsAre(0.55, 0.549));
+  EXPECT_THAT(t.values("P2_Pa"), ElementsAre(0, -0.3));
+}
+
 TEST_F(ForeignTest, BlanksAndNumbersForNames) {
   write("a.dat", "0.0   10  1\n0.1\t20  2\n");
   const ProbeTable t = read(R"([[files]]

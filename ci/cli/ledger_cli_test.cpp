@@ -3,18 +3,17 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
 #include "ci/ledger.h"
 #include "ci/made_results.h"
 #include "reports/synthetic_run.h"
+#include "validation/cli/program_test.h"
 #include "validation/manifest.h"
 
 namespace sluice::ci {
@@ -26,37 +25,15 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-struct Answer {
-  int exit_code = 0;
-  std::string out;
-  std::string err;
-};
+using program_test::Answer;
+using program_test::contents;
 
-std::string contents(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-class LedgerProgram : public testing::Test {
+class LedgerProgram : public program_test::InDirectory {
  protected:
-  LedgerProgram() {
-    const char* given = std::getenv("LEDGER_PROGRAM");
-    program = given != nullptr ? given : "build/release/ledger";
-    directory = fs::temp_directory_path() /
-                (std::string("sluice-ledger-cli-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(directory);
-    fs::create_directories(directory);
-    file = directory / "ledger.jsonl";
-  }
-  ~LedgerProgram() override { fs::remove_all(directory); }
+  LedgerProgram() : InDirectory("sluice-ledger-cli"), file(directory / "ledger.jsonl") {}
 
   Answer ledger(const std::string& arguments) const {
-    const fs::path out = directory / "stdout", err = directory / "stderr";
-    const std::string command = fmt::format("SLUICE_LEDGER={} USER=tester {} {} >{} 2>{} </dev/null", file.string(),
-                                            program, arguments, out.string(), err.string());
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
+    return command(fmt::format("SLUICE_LEDGER={} USER=tester {} {}", file.string(), program, arguments));
   }
 
   /// A run of one night whose impulses are `scale` times the measured ones.
@@ -71,8 +48,7 @@ class LedgerProgram : public testing::Test {
     return path;
   }
 
-  std::string program;
-  fs::path directory;
+  std::string program = program_test::program_path("LEDGER_PROGRAM", "ledger");
   fs::path file;
 };
 
@@ -109,13 +85,13 @@ TEST_F(LedgerProgram, FailuresAreOne) {
 
 TEST_F(LedgerProgram, FromTheRunToTheAlarmToItsAcceptance) {
   std::string runs;
-  for (int days = 0; days < 6; ++days) runs += " " + run(days, 1.05).string();
+  for (int days = 0; days < 6; ++days) runs += fmt::format(" {}", run(days, 1.05).string());
   const Answer first = ledger("append" + runs);
   EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_EQ(ledger("check").exit_code, 0);
   EXPECT_THAT(ledger("append" + runs).out, HasSubstr("0 results added"));
 
-  ledger("append --link-base https://example.org/n6 " + run(6, 1.12).string());
+  ledger(fmt::format("append --link-base https://example.org/n6 {}", run(6, 1.12).string()));
   const Answer alarm = ledger("check");
   EXPECT_EQ(alarm.exit_code, 1);
   EXPECT_THAT(alarm.out, AllOf(HasSubstr("kleefsman wcsph, alpha 0.01, l0_m 0.02"),
@@ -133,9 +109,9 @@ TEST_F(LedgerProgram, FromTheRunToTheAlarmToItsAcceptance) {
   EXPECT_THAT(ledger("check --everything").out, HasSubstr("accepted by tester: a known one) [accepted]"));
   EXPECT_EQ(read_ledger(file).acceptances.front().by, "tester");
 
-  ledger("append " + run(7, 1.12).string());
+  ledger(fmt::format("append {}", run(7, 1.12).string()));
   EXPECT_EQ(ledger("check").exit_code, 0) << "the new level is the base";
-  ledger("append " + run(8, 1.20).string());
+  ledger(fmt::format("append {}", run(8, 1.20).string()));
   EXPECT_EQ(ledger("check").exit_code, 1) << "and a further step is told";
 }
 

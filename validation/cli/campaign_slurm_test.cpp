@@ -14,11 +14,11 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <thread>
 
 #include "validation/checkpoint.h"
+#include "validation/cli/program_test.h"
 #include "validation/run_directory.h"
 #include "validation/run_lock.h"
 
@@ -30,11 +30,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string contents(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
+using program_test::contents;
 
 bool within(double limit_s, const std::function<bool()>& holds) {
   const auto start = std::chrono::steady_clock::now();
@@ -108,8 +104,7 @@ class OnSlurm : public testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(log)};
   }
   Answer sluice(const std::string& arguments) const {
-    const char* given = std::getenv("SLUICE_PROGRAM");
-    return command(fmt::format("{} {}", given != nullptr ? given : "build/release/sluice", arguments));
+    return command(fmt::format("{} {}", program_test::program_path("SLUICE_PROGRAM", "sluice"), arguments));
   }
   /// The log of a task of the array; `jobs.txt` names the array first, and the report behind a comma.
   fs::path task_log(int task) const { return out / "slurm" / fmt::format("{}_{}.log", array(), task); }

@@ -2,14 +2,13 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
+#include "validation/cli/program_test.h"
 #include "validation/run_directory.h"
 
 namespace sluice {
@@ -20,39 +19,16 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-struct Answer {
-  int exit_code = 0;
-  std::string out;
-  std::string err;
-};
+using program_test::Answer;
+using program_test::contents;
 
-std::string contents(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-class CommandLine : public testing::Test {
+class CommandLine : public program_test::InDirectory {
  protected:
-  CommandLine() {
-    const char* given = std::getenv("SLUICE_PROGRAM");
-    program = given != nullptr ? given : "build/release/sluice";
-    directory = fs::temp_directory_path() /
-                (std::string("sluice-cli-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(directory);
-    fs::create_directories(directory);
-  }
-  ~CommandLine() override { fs::remove_all(directory); }
+  CommandLine() : InDirectory("sluice-cli") {}
 
-  Answer sluice(const std::string& arguments) const {
-    const fs::path out = directory / "stdout", err = directory / "stderr";
-    const int status =
-        std::system(fmt::format("{} {} >{} 2>{} </dev/null", program, arguments, out.string(), err.string()).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
-  }
+  Answer sluice(const std::string& arguments) const { return command(fmt::format("{} {}", program, arguments)); }
 
-  std::string program;
-  fs::path directory;
+  std::string program = program_test::program_path("SLUICE_PROGRAM", "sluice");
 };
 
 TEST_F(CommandLine, HelpAndVersionGoToStdout) {

@@ -11,12 +11,12 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "validation/checkpoint.h"
+#include "validation/cli/program_test.h"
 #include "validation/run_directory.h"
 
 namespace sluice {
@@ -24,15 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string contents(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
+using program_test::contents;
 
 std::string program() {
-  const char* given = std::getenv("SLUICE_PROGRAM");
-  return given != nullptr ? given : "build/release/sluice";
+  return program_test::program_path("SLUICE_PROGRAM", "sluice");
 }
 
 pid_t start(const std::vector<std::string>& arguments) {

@@ -1,18 +1,7 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <exception>
-#include <string>
-#include <vector>
-
 #include "validation/cli/commands.h"
-#include "validation/cli/usage_error.h"
-#include "validation/manifest.h"
-#include "validation/suggest.h"
+#include "validation/cli/program.h"
 
 namespace {
-
-constexpr int usage_exit_code = 2;
 
 const char* const description =
     "Sluice: a validation bench for free-surface particle solvers. Runs a case, measures it against the experiment, "
@@ -38,41 +27,8 @@ void add_commands(CLI::App& app, int& exit_code) {
   sluice::cli::add_data(app, exit_code);
 }
 
-// CLI11 would only say that a command is required.
-void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) == names.end())
-    throw sluice::cli::UsageError(fmt::format("unknown command `{}`{}", argv[1], sluice::suggestion(argv[1], names)));
-}
-
-int complain(const std::string& message, int exit_code) {
-  fmt::print(stderr, "sluice: error: {}\n", message);
-  return exit_code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto& build = sluice::build_info();
-  int exit_code = 0;
-  CLI::App app(description, "sluice");
-  app.footer(examples);
-  app.set_version_flag("--version", fmt::format("sluice {} ({}; {})", build.version, build.commit, build.compiler));
-  app.require_subcommand(1);
-  add_commands(app, exit_code);
-  try {
-    refuse_unknown_command(app, argc, argv);
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {  // --help, --version
-    return app.exit(success);
-  } catch (const CLI::ParseError& error) {
-    return complain(std::string(error.what()) + " (see --help)", usage_exit_code);
-  } catch (const sluice::cli::UsageError& error) {
-    return complain(error.what(), usage_exit_code);
-  } catch (const std::exception& error) {
-    return complain(error.what(), 1);
-  }
-  return exit_code;
+  return sluice::cli::run_program({"sluice", description, examples}, add_commands, argc, argv);
 }

@@ -169,5 +169,24 @@ TEST_F(CampaignTest, ThoseOfTheProjectCanBeRead) {
     EXPECT_FALSE(load_campaign(entry.path(), directory, 1).runs.empty()) << entry.path();
 }
 
+/// What the paper's Tables 1 and 3 list, no more and no less.
+TEST(PaperCampaign, IsThePapersMatrix) {
+  const Campaign campaign = load_campaign("validation/campaigns/paper.toml", "runs", 1);
+  std::vector<std::string> ours;
+  for (const CampaignRun& run : campaign.runs) {
+    const auto alpha = run.settings.parameters.find("alpha");
+    ours.push_back(fmt::format("{} {} {:g} {:g} to {:g} s", campaign.case_of(run).name, run.settings.solver,
+                               run.settings.l0_m, alpha == run.settings.parameters.end() ? 0 : alpha->second,
+                               run.settings.t_end_s));
+  }
+  std::vector<std::string> papers;
+  for (const Case& c : campaign.cases)
+    for (const PublishedRun& run : c.published.runs)
+      for (const double alpha : run.alpha.empty() ? std::vector<double>{0} : run.alpha)
+        papers.push_back(fmt::format("{} {} {:g} {:g} to {:g} s", c.name, run.solver, run.l0_m, alpha, run.t_end_s));
+  EXPECT_THAT(ours, testing::UnorderedElementsAreArray(papers));
+  EXPECT_EQ(ours.size(), 13U);
+}
+
 }  // namespace
 }  // namespace sluice

@@ -146,6 +146,15 @@ TEST(TimeStep, TakesTheStricterCondition) {
   EXPECT_GT(time_step(p, {0, 0}), 0);
 }
 
+TEST(TimeStep, OneThatHasCollapsedEndsTheRun) {
+  Parameters p;
+  p.particle_distance_m = 0.02;
+  p.speed_of_sound_m_s = 46.4;
+  EXPECT_NO_THROW(require_progress(p, time_step(p, {1e8, 0}), 0.5));
+  EXPECT_THROW(require_progress(p, time_step(p, {1e12, 0}), 0.5), std::runtime_error);
+  EXPECT_THROW(require_progress(p, std::nan(""), 0.5), std::runtime_error);
+}
+
 TEST(Verlet, LeapsOverTwoStepsAndRestartsOverOne) {
   EXPECT_DOUBLE_EQ(verlet_value(2.0, 1.5, 10.0, 0.1, VerletForm::leap), 1.5 + 0.2 * 10.0);
   EXPECT_DOUBLE_EQ(verlet_value(2.0, 1.5, 10.0, 0.1, VerletForm::restart), 2.0 + 0.1 * 10.0);

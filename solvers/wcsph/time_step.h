@@ -1,9 +1,12 @@
 // The variable time step (Eq. 15).
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "solvers/wcsph/pair_sums.h"
 
@@ -24,6 +27,20 @@ inline double time_step(const Parameters& p, const StepLimits& limits) {
   const double h = p.smoothing_length_m();
   return std::min(force_time_step(p.courant, h, limits.acceleration_m_s2),
                   sound_time_step(p.courant, h, p.speed_of_sound_m_s, limits.mu_m_s));
+}
+
+/// Shortest step against Cr h / c_0. The hardest impacts of sound runs ask for a twentieth (l0 = 0.015 m).
+inline constexpr double collapsed_share = 1e-3;
+
+/// Throws std::runtime_error for a step so short, or not a number, that the run would crawl for ever: it has become
+/// unstable.
+inline void require_progress(const Parameters& p, double dt_s, double time_s) {
+  const double usual_s = sound_time_step(p.courant, p.smoothing_length_m(), p.speed_of_sound_m_s, 0);
+  if (dt_s >= collapsed_share * usual_s) return;
+  throw std::runtime_error(fmt::format(
+      "the run has become unstable at t = {:.4g} s: a time step of {:.2e} s is asked for, {:.2e} s is usual; try "
+      "a smaller courant or restart_interval, or a larger alpha",
+      time_s, dt_s, usual_s));
 }
 
 }  // namespace sluice::wcsph

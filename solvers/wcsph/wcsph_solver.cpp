@@ -27,6 +27,7 @@ template <class Pack>
 double WcsphSolver<Pack>::step() {
   const StepLimits limits = sum_rates();
   const double dt = time_step(parameters_, limits);
+  require_progress(parameters_, dt, time_s_);
   clock_.time("advance", [&] { advance(dt); });
   clock_.time("sort", [&] { sort_if_due(); });
   clock_.time("equation_of_state", [&] { update_fluid_state(); });

@@ -24,6 +24,7 @@ class WcsphSolver final : public Solver {
   /// Throws std::invalid_argument when a parameter is out of its range (the message names it).
   WcsphSolver(const Scene& scene, const Parameters& parameters, int threads);
 
+  /// Throws std::runtime_error when the run has become unstable. What was computed stays readable.
   double step() override;
 
   double time_s() const override { return time_s_; }

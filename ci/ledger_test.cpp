@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "ci/made_results.h"
+#include "validation/cli/program_test.h"
 
 namespace sluice::ci {
 namespace {
@@ -21,11 +22,7 @@ namespace fs = std::filesystem;
 using made::result;
 using testing::HasSubstr;
 
-std::string contents(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
+using program_test::contents;
 
 class LedgerTest : public testing::Test {
  protected:

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "solvers/state_archive.h"
+#include "validation/cli/program_test.h"
 #include "validation/fake_solver.h"
 #include "validation/run.h"
 #include "validation/run_directory.h"
@@ -21,11 +22,7 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-std::string contents(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
+using program_test::contents;
 
 // A solver with something of every kind to remember.
 class Rememberer : public FakeSolver {

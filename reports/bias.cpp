@@ -23,7 +23,7 @@ const Pair& arrival_pair(const Comparison& c) {
   return c.arrival_s;
 }
 
-std::vector<PredictedAndMeasured> pairs_of(const ReportData& data, const RunGroup& group, SensorKind kind,
+std::vector<PredictedAndMeasured> pairs_of(const ReportData& data, const RunGroup& group, SensorKind kind, double scale,
                                            Measure measure) {
   std::vector<PredictedAndMeasured> pairs;
   for (const AnalysedRun* run : group.runs)
@@ -31,16 +31,16 @@ std::vector<PredictedAndMeasured> pairs_of(const ReportData& data, const RunGrou
       const SensorReading* reading = run->primary(sensor);
       if (reading == nullptr) continue;
       const Pair& values = measure(reading->comparison);
-      if (values.simulated && values.measured) pairs.push_back({*values.simulated, *values.measured});
+      if (values.simulated && values.measured) pairs.push_back({scale * *values.simulated, scale * *values.measured});
     }
   return pairs;
 }
 
 void add(std::vector<BiasQuantity>& out, const ReportData& data, SensorKind kind, const std::string& what,
-         const std::string& unit, Measure measure) {
+         const std::string& unit, double scale, Measure measure) {
   BiasQuantity quantity{fmt::format("{} [{}]", what, unit), unit, {}};
   for (const RunGroup& group : run_groups(data, data.runs.size()))
-    if (auto pairs = pairs_of(data, group, kind, measure); !pairs.empty())
+    if (auto pairs = pairs_of(data, group, kind, scale, measure); !pairs.empty())
       quantity.methods.push_back({group.title, std::move(pairs)});
   if (!quantity.methods.empty()) out.push_back(std::move(quantity));
 }
@@ -52,11 +52,12 @@ std::vector<BiasQuantity> bias_quantities(const ReportData& data) {
   for (const auto& [kind, name] :
        {std::pair(SensorKind::pressure, "pressures"), std::pair(SensorKind::force, "forces")}) {
     const Quantity& q = quantity_of(kind);
-    add(out, data, kind, fmt::format("Impulse of {}", name), q.impulse_unit, impulse_pair);
-    add(out, data, kind, fmt::format("10 ms mean peak of {}", name), q.unit, smoothed_peak_pair);
-    add(out, data, kind, fmt::format("Arrival at {}", name), "s", arrival_pair);
+    add(out, data, kind, fmt::format("Impulse of {}", name), q.drawn_unit + " s", q.drawn_scale, impulse_pair);
+    add(out, data, kind, fmt::format("10 ms mean peak of {}", name), q.drawn_unit, q.drawn_scale, smoothed_peak_pair);
+    add(out, data, kind, fmt::format("Arrival at {}", name), "s", 1, arrival_pair);
   }
-  add(out, data, SensorKind::wave_height, "Highest wave", quantity_of(SensorKind::wave_height).unit, peak_pair);
+  const Quantity& wave = quantity_of(SensorKind::wave_height);
+  add(out, data, SensorKind::wave_height, "Highest wave", wave.drawn_unit, wave.drawn_scale, peak_pair);
   return out;
 }
 

@@ -15,7 +15,7 @@ struct BiasMethod {
 };
 
 struct BiasQuantity {
-  std::string name;  ///< "Impulse of pressures [Pa s]"
+  std::string name;  ///< "Impulse of pressures [kPa s]", in the unit of figures
   std::string unit;
   std::vector<BiasMethod> methods;  ///< those with a pair
 };

@@ -7,15 +7,16 @@
 namespace sluice {
 namespace {
 
-/// Shrinks an obstacle except where it stands on the tank for good.
-Box core(const Obstacle& o, const Box& tank, double tolerance) {
+/// Shrinks an obstacle; where it stands on the tank for good it reaches into the tank's wall instead, so that nothing
+/// creeps in between.
+Box core(const Obstacle& o, const Box& tank, double shrinks_m, double reaches_m) {
   Box b = o.box;
   const bool moves = o.motion.moves();
   for (int a = 0; a < 3; ++a) {
     double& lower = component(b.lower, a);
     double& upper = component(b.upper, a);
-    lower += moves || lower > component(tank.lower, a) ? tolerance : -tolerance;
-    upper -= moves || upper < component(tank.upper, a) ? tolerance : -tolerance;
+    lower += moves || lower > component(tank.lower, a) ? shrinks_m : -reaches_m;
+    upper -= moves || upper < component(tank.upper, a) ? shrinks_m : -reaches_m;
   }
   return b;
 }
@@ -54,7 +55,7 @@ Tank::Tank(const Scene& scene)
   domain_.upper.z = inside_.upper.z + l0;
   bodies_.push_back(tank);
   for (const Obstacle& o : scene.fitted.obstacles) {
-    solids_.push_back({core(o, tank, l0), core(o, tank, half_m_), o.motion});
+    solids_.push_back({core(o, tank, l0, l0), core(o, tank, half_m_, l0), o.motion});
     if (!o.motion.moves()) {
       bodies_.push_back(o.box);
       continue;

@@ -71,18 +71,21 @@ struct Rows {
   double filled = 0;
   double entries = 0;
 };
-template <class GetSpan>
-Rows rows(std::size_t first, std::size_t end, GetSpan&& get) {
+template <class Count>
+Rows rows(std::size_t first, std::size_t end, Count&& count) {
   Rows r;
   for (std::size_t i = first; i < end; ++i) {
-    const Span s = get(i);
-    r.filled += s.end > s.begin;
-    r.entries += s.end - s.begin;
+    const std::uint32_t n = count(i);
+    r.filled += n > 0;
+    r.entries += n;
   }
   return r;
 }
+std::uint32_t length(mps::Span s) {
+  return s.end - s.begin;
+}
 Rows rows_of_fluid(const State& s) {
-  return rows(s.particles_.first_fluid(), s.particles_.size(), [&](std::size_t i) { return s.list.all(i); });
+  return rows(s.particles_.first_fluid(), s.particles_.size(), [&](std::size_t i) { return s.list.count(i); });
 }
 
 constexpr double entry = 8;  // bytes: a column and a weight
@@ -99,11 +102,10 @@ Kernel sort(double particles, int threads) {
 Kernel neighbour_rows(double particles, int threads) {
   const auto s = std::make_shared<State>(particles, threads);
   const auto& p = s->particles_;
-  const Rows all = rows(p.first_wall(), p.size(), [&](std::size_t i) { return s->list.all(i); });
-  const Rows near = rows(p.first_wall(), p.size(), [&](std::size_t i) { return s->list.near().span(i); });
+  const Rows all = rows(p.first_wall(), p.size(), [&](std::size_t i) { return s->list.count(i); });
   // Of every particle its position and coordinates, of every row two spans (16), two sums (8) and a count (2).
   const auto n = static_cast<double>(p.size());
-  const double bytes = n * (24 + coordinates) + all.filled * 26 + (all.entries + near.entries) * entry;
+  const double bytes = n * (24 + coordinates) + all.filled * 26 + all.entries * entry;
   return {[s] { s->list_rows(); }, {s->fluid(), bytes, all.entries * operations_of_listed_neighbour()}};
 }
 
@@ -120,7 +122,7 @@ Kernel viscosity(double particles, int threads) {
 Kernel collisions(double particles, int threads) {
   const auto s = std::make_shared<State>(particles, threads);
   const auto& p = s->particles_;
-  const Rows near = rows(p.first_fluid(), p.size(), [&](std::size_t i) { return s->list.near().span(i); });
+  const Rows near = rows(p.first_fluid(), p.size(), [&](std::size_t i) { return length(s->list.near().span(i)); });
   const double bytes = near.entries * 4 + s->fluid() * (8 + 24 + 12 + 12);
   return {[s] { collide(s->particles_, s->solver.normals_of_walls(), s->list, s->constants, s->velocity, s->threads); },
           {s->fluid(), bytes, near.entries * operations_of_collision_test()}};
@@ -131,7 +133,9 @@ Kernel pressure_gradients(double particles, int threads) {
   const auto s = std::make_shared<State>(particles, threads);
   s->constants.dt_s = 0;
   const auto& p = s->particles_;
-  const Rows r = rows(p.first_fluid(), p.size(), [&](std::size_t i) { return s->list.with_pressure(i); });
+  const Rows r = rows(p.first_fluid(), p.size(), [&](std::size_t i) {
+    return length(s->list.near().span(i)) + length(s->list.far_with_pressure(i));
+  });
   // Entries; coordinates and pressure (8) read, positions (24) and velocities (12) read and written.
   const double bytes = r.entries * entry + s->fluid() * (8 + coordinates + 8 + 48 + 24);
   return {[s] { correct(s->particles_, s->list, s->constants, s->threads); },
@@ -145,18 +149,19 @@ Kernel matrix_product(double particles, int threads) {
   const auto x = std::make_shared<std::vector<double>>(A.end, 0.0);
   const auto y = std::make_shared<std::vector<double>>(A.end, 0.0);
   for (std::size_t i = A.begin; i < A.end; ++i) (*x)[i] = A.has_row[i] != 0 ? std::sin(static_cast<double>(i)) : 0.0;
-  const Rows r = rows(A.begin, A.end, [&](std::size_t i) { return A.has_row[i] != 0 ? A.all.entries[i] : Span{}; });
-  // A row: span (8), diagonal (4), flag (1), one element of each vector (16). Two operations an entry and on the
+  const Rows r = rows(A.begin, A.end, [&](std::size_t i) {
+    return A.has_row[i] != 0 ? length(A.near.rows[i]) + length(A.far.rows[i]) : 0U;
+  });
+  // A row: two spans (16), diagonal (4), flag (1), one element of each vector (16). Two operations an entry and on the
   // diagonal.
-  const double bytes = r.entries * entry + r.filled * (8 + 4 + 1 + 16);
+  const double bytes = r.entries * entry + r.filled * (16 + 4 + 1 + 16);
   const auto multiply = [s, x, y] {
     const auto& M = s->equation.matrix();
     const auto end = static_cast<std::int64_t>(M.end);
 #pragma omp parallel for num_threads(s->threads) schedule(static, 512)
     for (auto k = static_cast<std::int64_t>(M.begin); k < end; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      (*y)[i] = M.has_row[i] != 0 ? static_cast<double>(M.all.diagonal[i]) * (*x)[i] - off_diagonal(M.all, i, x->data())
-                                  : 0.0;
+      (*y)[i] = product(M, i, x->data());
     }
   };
   return {multiply, {r.filled, bytes, 2 * r.entries + 2 * r.filled}};
@@ -185,8 +190,7 @@ Work cycle_work(const std::vector<mps::LevelSize>& levels) {
 /// The preconditioner of one iteration. Items are unknowns.
 Kernel v_cycle(double particles, int threads) {
   const auto s = std::make_shared<State>(particles, threads);
-  const auto z = std::make_shared<std::vector<double>>(s->particles_.size(), 0.0);
-  return {[s, z] { s->multigrid.apply(s->equation.right_side(), *z); }, cycle_work(s->multigrid.level_sizes())};
+  return {[s] { s->multigrid.apply(s->equation.right_side()); }, cycle_work(s->multigrid.level_sizes())};
 }
 
 /// Coarse cells and matrices of one step.

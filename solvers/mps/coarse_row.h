@@ -28,17 +28,18 @@ class CoarseRow {
 
   /// Adds the entries of one row of the finer matrix; `coarse` is the cell of each of its columns, or negative.
   /// Neighbouring entries mostly go to one cell, and each addition would wait for the one before: so they take turns.
-  void add(const MatrixRows<Real>& rows, const std::vector<std::int32_t>& coarse, std::size_t i) {
-    const Span row = rows.entries[i];
+  void add(const Entries<Real>& entries, const std::vector<std::int32_t>& coarse, std::size_t i) {
+    const Span row = entries.rows[i];
     for (std::uint32_t k = row.begin; k < row.end; ++k) {
-      const std::int32_t J = coarse[static_cast<std::size_t>(rows.columns[k])];
-      values_[place_of(J < 0 ? nowhere_ : J)][k % turns] += rows.weights[k];
+      const std::int32_t J = coarse[static_cast<std::size_t>(entries.columns[k])];
+      values_[place_of(J < 0 ? nowhere_ : J)][k % turns] += entries.weights[k];
     }
   }
 
-  void finish() {
+  /// Sums, times a factor.
+  void finish(Real factor) {
     totals_.clear();
-    for (const auto& v : values_) totals_.push_back((v[0] + v[1]) + (v[2] + v[3]));
+    for (const auto& v : values_) totals_.push_back(factor * ((v[0] + v[1]) + (v[2] + v[3])));
     for (const std::int32_t J : columns_) place_[static_cast<std::size_t>(J)] = -1;
   }
 

@@ -32,15 +32,11 @@ double ConjugateGradients<Real>::sum(const PressureMatrix<Real>& A, Term&& term)
 
 template <class Real>
 Convergence ConjugateGradients<Real>::solve(const PressureMatrix<Real>& A, std::span<const double> b,
-                                            std::span<double> x, const PreconditionerCall& precondition,
+                                            std::span<double> x, const PreconditionerCall<Real>& precondition,
                                             double tolerance, int most_iterations) {
-  for (auto* v : {&residual_, &preconditioned_, &direction_, &product_}) v->resize(A.end);
-  const auto applied = [&](std::size_t i, const double* v) {
-    return A.has_row[i] != 0 ? static_cast<double>(A.all.diagonal[i]) * v[i] - off_diagonal(A.all, i, v) : 0.0;
-  };
+  for (auto* v : {&residual_, &direction_, &product_}) v->resize(A.end);
   history_.clear();
   double* const r = residual_.data();
-  double* const z = preconditioned_.data();
   double* const p = direction_.data();
   double* const q = product_.data();
   std::fill_n(p, A.begin, 0.0);  // columns below the first row are never read, but let them be numbers
@@ -50,21 +46,21 @@ Convergence ConjugateGradients<Real>::solve(const PressureMatrix<Real>& A, std::
     return {0, 0, true};
   }
   double norm_r = std::sqrt(sum(A, [&](std::size_t i) {
-    r[i] = b[i] - applied(i, x.data());
+    r[i] = b[i] - product(A, i, x.data());
     return r[i] * r[i];
   }));
   history_.push_back(norm_r / norm_b);
   double rz_before = 0;
   for (int k = 0; k < most_iterations && norm_r > tolerance * norm_b; ++k) {
-    precondition(residual_, preconditioned_);
-    const double rz = sum(A, [&](std::size_t i) { return r[i] * z[i]; });
+    const Real* const z = precondition(residual_).data();
+    const double rz = sum(A, [&](std::size_t i) { return r[i] * static_cast<double>(z[i]); });
     const double beta = k == 0 ? 0 : rz / rz_before;
     sum(A, [&](std::size_t i) {
-      p[i] = k == 0 ? z[i] : z[i] + beta * p[i];
+      p[i] = static_cast<double>(z[i]) + (k == 0 ? 0.0 : beta * p[i]);
       return 0.0;
     });
     const double pq = sum(A, [&](std::size_t i) {
-      q[i] = applied(i, p);
+      q[i] = product(A, i, p);
       return p[i] * q[i];
     });
     const double alpha = rz / pq;
@@ -81,22 +77,22 @@ Convergence ConjugateGradients<Real>::solve(const PressureMatrix<Real>& A, std::
 
 template <class Real>
 std::int64_t ConjugateGradients<Real>::memory_bytes() const {
-  return bytes(residual_) + bytes(preconditioned_) + bytes(direction_) + bytes(product_) + bytes(partial_);
+  return bytes(residual_) + bytes(direction_) + bytes(product_) + bytes(partial_);
 }
 
 template <class Real>
-void jacobi(const PressureMatrix<Real>& A, std::span<const double> r, std::span<double> z, int threads) {
+void jacobi(const PressureMatrix<Real>& A, std::span<const double> r, std::span<Real> z, int threads) {
   const auto n = static_cast<std::int64_t>(A.end);
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (auto k = static_cast<std::int64_t>(A.begin); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    z[i] = A.has_row[i] != 0 ? r[i] / static_cast<double>(A.all.diagonal[i]) : 0.0;
+    z[i] = A.has_row[i] != 0 ? static_cast<Real>(r[i]) / A.diagonal[i] : Real{};
   }
 }
 
 template class ConjugateGradients<float>;
 template class ConjugateGradients<double>;
-template void jacobi(const PressureMatrix<float>&, std::span<const double>, std::span<double>, int);
+template void jacobi(const PressureMatrix<float>&, std::span<const double>, std::span<float>, int);
 template void jacobi(const PressureMatrix<double>&, std::span<const double>, std::span<double>, int);
 
 }  // namespace sluice::mps

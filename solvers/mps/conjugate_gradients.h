@@ -17,8 +17,9 @@ struct Convergence {
   bool converged = false;
 };
 
-/// z = preconditioner applied to r.
-using PreconditionerCall = std::function<void(std::span<const double> r, std::span<double> z)>;
+/// The preconditioner applied to r: in the matrix's precision, which is good enough for directions.
+template <class Real>
+using PreconditionerCall = std::function<std::span<const Real>(std::span<const double> r)>;
 
 /// Keeps its work vectors between solutions.
 template <class Real>
@@ -28,7 +29,7 @@ class ConjugateGradients {
 
   /// Improves x until |b - A x| <= tolerance |b|. The vectors are zero where the matrix has no row.
   Convergence solve(const PressureMatrix<Real>& A, std::span<const double> b, std::span<double> x,
-                    const PreconditionerCall& precondition, double tolerance, int most_iterations);
+                    const PreconditionerCall<Real>& precondition, double tolerance, int most_iterations);
 
   /// Relative residuals of the last solution, before the first iteration and after each.
   const std::vector<double>& history() const { return history_; }
@@ -40,13 +41,13 @@ class ConjugateGradients {
   double sum(const PressureMatrix<Real>& A, Term&& term);
 
   int threads_;
-  std::vector<double> residual_, preconditioned_, direction_, product_, partial_;
+  std::vector<double> residual_, direction_, product_, partial_;
   std::vector<double> history_;
 };
 
 /// Jacobi, the paper's kind: z = r / diagonal.
 template <class Real>
-void jacobi(const PressureMatrix<Real>& A, std::span<const double> r, std::span<double> z, int threads);
+void jacobi(const PressureMatrix<Real>& A, std::span<const double> r, std::span<Real> z, int threads);
 
 extern template class ConjugateGradients<float>;
 extern template class ConjugateGradients<double>;

@@ -51,14 +51,17 @@ void DirectSolver::factorise(const PressureMatrix<Real>& A) {
   for (std::size_t i = A.begin; i < A.end; ++i) {
     if (f.row_of[i] < 0) continue;
     f.row_index.push_back(f.row_of[i]);
-    f.value.push_back(static_cast<double>(A.all.diagonal[i]));
-    const Span entries = A.all.entries[i];
-    for (std::uint32_t k = entries.begin; k < entries.end; ++k) {
-      const std::int32_t row = f.row_of[static_cast<std::size_t>(A.all.columns[k])];
-      if (row < 0 || row >= f.row_of[i]) continue;
-      f.row_index.push_back(row);
-      f.value.push_back(-static_cast<double>(A.all.weights[k]));
-    }
+    f.value.push_back(static_cast<double>(A.diagonal[i]));
+    const auto add = [&](const Entries<Real>& entries) {
+      for (std::uint32_t k = entries.rows[i].begin; k < entries.rows[i].end; ++k) {
+        const std::int32_t row = f.row_of[static_cast<std::size_t>(entries.columns[k])];
+        if (row < 0 || row >= f.row_of[i]) continue;
+        f.row_index.push_back(row);
+        f.value.push_back(-static_cast<double>(entries.weights[k]));
+      }
+    };
+    add(A.near);
+    if (A.has_far()) add(A.far);
     f.column_start.push_back(static_cast<int>(f.row_index.size()));
   }
   if (f.unknowns == 0) return;

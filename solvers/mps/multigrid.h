@@ -27,7 +27,7 @@ struct CellAddress {
 /// How much work a level is.
 struct LevelSize {
   std::int64_t unknowns = 0;
-  std::int64_t entries = 0;  ///< off the diagonal; on the finest level those of near neighbours, which smooth
+  std::int64_t entries = 0;  ///< off the diagonal; on the finest level those of near neighbours
 };
 
 template <class Real>
@@ -45,8 +45,8 @@ class Multigrid {
   void prepare(const PressureMatrix<Real>& matrix, std::span<const double> x, std::span<const double> y,
                std::span<const double> z);
 
-  /// z = cycle applied to r; both in double, the cycle in the matrix's precision.
-  void apply(std::span<const double> r, std::span<double> z);
+  /// The cycle applied to r, in the matrix's precision; stands until the next call.
+  std::span<const Real> apply(std::span<const double> r);
 
   int levels() const { return used_levels_; }
   /// Of the matrix at hand, the finest level first.
@@ -59,7 +59,8 @@ class Multigrid {
   void gather_cells(std::size_t level);
   void sum_coarse_matrix(std::size_t level);
   void cycle(std::size_t level);
-  void smooth_from_zero(Level& level);
+  void correct_from_below(std::size_t level);
+  static void smooth_from_zero(Level& level, std::size_t i);
   void restrict_residual(Level& fine, Level& coarse);
   void correct_and_smooth(Level& fine, const Level& coarse);
 

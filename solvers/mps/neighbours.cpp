@@ -10,8 +10,18 @@
 namespace sluice::mps {
 namespace {
 
+// Entries of the two rows in a full lattice, rounded up to whole units, and a few more.
 constexpr std::size_t expected_near = 26;
-constexpr std::size_t expected_row = 44;  // neighbours in a full lattice and a few more
+constexpr std::size_t expected_far = 33;
+
+template <class Pack, class Real>
+Real sum_of(const std::vector<Real>& values, std::size_t n) {
+  using L = Lanes<Pack>;
+  Pack sum{};
+  for (std::size_t k = 0; k < n; k += L::width)
+    sum += where_positive(L::first(static_cast<int>(std::min<std::size_t>(L::width, n - k))), L::load(&values[k]));
+  return lane_sum(sum);
+}
 
 }  // namespace
 
@@ -21,20 +31,22 @@ void NeighbourList<Pack>::list(Particles<Pack>& particles, const SearchSet& flui
   const auto n = static_cast<std::int64_t>(particles.size());
   collectors_.resize(static_cast<std::size_t>(threads));
   const auto least_near_weight = static_cast<Real>(reach.effective_radius_m / reach.near_radius_m - 1);
-  near_.reserve(particles.size(), expected_near * (particles.fluid + particles.walls / 2));
   dummies_.resize(particles.size());
-  rows_.reserve(particles.size(), expected_row * (particles.fluid + particles.walls / 2));
+  near_weight_.resize(particles.size());
+  far_weight_.resize(particles.size());
+  near_.reserve(particles.size(), expected_near * (particles.fluid + particles.walls / 2));
+  far_.reserve(particles.size(), expected_far * (particles.fluid + particles.walls / 2));
   do {
-    rows_.clear(particles.size());
     near_.clear(particles.size());
+    far_.clear(particles.size());
 #pragma omp parallel num_threads(threads)
     {
       Collector& c = collectors_[static_cast<std::size_t>(omp_get_thread_num())];
       c.radius = Pack(static_cast<Real>(reach.effective_radius_m / reach.quantum_m));
       const double list_radius = reach.list_radius_m / reach.quantum_m;
       c.list_radius2 = static_cast<Real>(list_radius * list_radius);
-      typename SparseRows<Real>::Writer writer(rows_);
       typename SparseRows<Real>::Writer near_writer(near_);
+      typename SparseRows<Real>::Writer far_writer(far_);
 #pragma omp for schedule(dynamic, 256)
       for (auto k = static_cast<std::int64_t>(particles.first_wall()); k < n; ++k) {
         const auto i = static_cast<std::size_t>(k);
@@ -44,14 +56,18 @@ void NeighbourList<Pack>::list(Particles<Pack>& particles, const SearchSet& flui
           c.add(particles, i, fluid);
           if (walls.proximity->any_near(x)) c.add(particles, i, walls);
         }
-        const std::size_t with_pressure = c.count;
-        c.pick_near(least_near_weight);
+        c.part_near(least_near_weight);
         near_writer.write(i, c.near_column.data(), c.near_weight.data(), c.near);
-        if (with_pressure > 0 && dummies.proximity->any_near(x)) c.add(particles, i, dummies);
-        finish_row(particles, i, c, reach.quantum_m, writer, c.count - with_pressure);
+        const std::size_t with_pressure = c.count;
+        near_weight_[i] = sum_of<Pack>(c.near_weight, c.near);
+        far_weight_[i] = sum_of<Pack>(c.weight, c.count);
+        if (c.near + c.count > 0 && dummies.proximity->any_near(x)) c.add(particles, i, dummies);
+        dummies_[i] = static_cast<std::uint16_t>(c.count - with_pressure);
+        far_writer.write(i, c.column.data(), c.weight.data(), c.count, with_pressure);
+        finish_sums(particles, i, c, reach.quantum_m);
       }
     }
-  } while (static_cast<int>(rows_.grew_for_more()) + static_cast<int>(near_.grew_for_more()) > 0);
+  } while (static_cast<int>(near_.grew_for_more()) + static_cast<int>(far_.grew_for_more()) > 0);
 }
 
 template <class Pack>
@@ -69,15 +85,21 @@ void NeighbourList<Pack>::Collector::make_room(std::size_t wanted) {
 }
 
 template <class Pack>
-void NeighbourList<Pack>::Collector::pick_near(Real least_weight) {
+void NeighbourList<Pack>::Collector::part_near(Real least_weight) {
   near_column.resize(column.size());
   near_weight.resize(column.size());
   near = 0;
+  std::size_t far = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    near_column[near] = column[k];
-    near_weight[near] = weight[k];
-    near += weight[k] > least_weight;
+    const std::int32_t j = column[k];
+    const Real omega = weight[k];
+    near_column[near] = column[far] = j;
+    near_weight[near] = weight[far] = omega;
+    const bool is_near = omega > least_weight;
+    near += is_near;
+    far += !is_near;
   }
+  count = far;
 }
 
 /// Weights and sums of whole packs of candidates; then, lane by lane and without a branch, what is within reach is
@@ -121,21 +143,19 @@ void NeighbourList<Pack>::Collector::add(const Particles<Pack>& particles, std::
 
 /// n_i = sum omega_ij   [1]   Eq. (17);   sigma_i = |sum r_ij omega_ij| / n_i   [m]   Eq. (30)
 template <class Pack>
-void NeighbourList<Pack>::finish_row(Particles<Pack>& particles, std::size_t i, const Collector& c, double quantum_m,
-                                     typename SparseRows<Real>::Writer& writer, std::size_t dummies) {
+void NeighbourList<Pack>::finish_sums(Particles<Pack>& particles, std::size_t i, const Collector& c, double quantum_m) {
   const Real n = lane_sum(c.weights);
   const Vec3<Real> sum{lane_sum(c.moment.x), lane_sum(c.moment.y), lane_sum(c.moment.z)};
   particles.number_density[i] = n;
   particles.centroid_offset[i] =
       n > 0 ? static_cast<Real>(quantum_m) * static_cast<Real>(square_root(static_cast<double>(dot(sum, sum)))) / n
             : Real{};
-  dummies_[i] = static_cast<std::uint16_t>(dummies);
-  writer.write(i, c.column.data(), c.weight.data(), c.count);
 }
 
 template <class Pack>
 std::int64_t NeighbourList<Pack>::memory_bytes() const {
-  return rows_.memory_bytes() + near_.memory_bytes() + bytes(dummies_);
+  return near_.memory_bytes() + far_.memory_bytes() + bytes(dummies_) +
+         bytes(near_weight_) + bytes(far_weight_);
 }
 
 template class NeighbourList<double>;

@@ -26,7 +26,8 @@ struct Reach {
   double near_radius_m = 0;  ///< of the near neighbours, no more than the effective radius
 };
 
-/// Row i: first neighbours that have a pressure (fluid, then walls), then dummies; values are weights omega_ij.
+/// Two rows a particle, with weights omega_ij as values: near neighbours that have a pressure, which collide and smooth;
+/// and all others, of which dummies come first. Those who want all read both, and nothing is stored twice.
 template <class Pack>
 class NeighbourList {
  public:
@@ -37,17 +38,19 @@ class NeighbourList {
   void list(Particles<Pack>& particles, const SearchSet& fluid, const SearchSet& walls, const SearchSet& dummies,
             const Reach& reach, int threads);
 
-  /// All neighbours of particle i, and those that have a pressure.
-  Span all(std::size_t i) const { return rows_.span(i); }
-  Span with_pressure(std::size_t i) const {
-    const Span s = rows_.span(i);
-    return {s.begin, s.end - dummies_[i]};
-  }
-  /// A copy of the rows with nothing but near neighbours that have a pressure: less to read for those who can do
-  /// without the others.
   const SparseRows<Real>& near() const { return near_; }
-  const std::int32_t* columns() const { return rows_.columns(); }
-  const Real* weights() const { return rows_.values(); }
+  const SparseRows<Real>& far() const { return far_; }
+  /// Those of row i of far() that have a pressure.
+  Span far_with_pressure(std::size_t i) const {
+    const Span s = far_.span(i);
+    return {s.begin + dummies_[i], s.end};
+  }
+  /// Sums of the weights of near neighbours, and of far ones that have a pressure.
+  Real near_weight(std::size_t i) const { return near_weight_[i]; }
+  Real far_weight(std::size_t i) const { return far_weight_[i]; }
+  std::uint32_t count(std::size_t i) const {
+    return near_.span(i).end - near_.span(i).begin + far_.span(i).end - far_.span(i).begin;
+  }
   std::int64_t memory_bytes() const;
 
  private:
@@ -57,8 +60,8 @@ class NeighbourList {
     /// Adds the neighbours of a particle that lie in one set.
     void add(const Particles<Pack>& particles, std::size_t self, const SearchSet& set);
     void make_room(std::size_t wanted);
-    /// Copies the near ones among the neighbours so far.
-    void pick_near(Real least_weight);
+    /// Takes the near ones out of the neighbours so far.
+    void part_near(Real least_weight);
 
     Pack radius;        ///< effective radius   [quantum]
     Real list_radius2;  ///< square of what is listed   [quantum^2]
@@ -72,12 +75,12 @@ class NeighbourList {
     Vec3<Pack> moment{};  ///< sum of omega_ij r_ij   [quantum]
   };
 
-  void finish_row(Particles<Pack>& particles, std::size_t i, const Collector& c, double quantum_m,
-                  typename SparseRows<Real>::Writer& writer, std::size_t dummies);
+  static void finish_sums(Particles<Pack>& particles, std::size_t i, const Collector& c, double quantum_m);
 
-  SparseRows<Real> rows_;
   SparseRows<Real> near_;
-  std::vector<std::uint16_t> dummies_;  ///< at the end of each row
+  SparseRows<Real> far_;
+  std::vector<std::uint16_t> dummies_;  ///< at the begin of each row of far_
+  std::vector<Real> near_weight_, far_weight_;
   std::vector<Collector> collectors_;
 };
 

@@ -1,6 +1,7 @@
 #include "solvers/mps/operators.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "solvers/mps/terms.h"
@@ -12,12 +13,32 @@ namespace {
 /// of a half-filled neighbourhood has about 0.1.
 constexpr double least_determinant = 0.01;
 
-/// Calls visit(index of the first entry, number of entries) for each pack of a row's part.
+/// Calls visit(columns, weights, how many) for each pack of a particle's near neighbours and of a part of its far ones;
+/// one pack takes the end of the former and the begin of the latter.
 template <class Pack, class Visit>
-[[gnu::always_inline]] inline void for_packs(Span span, Visit&& visit) {
-  for (std::uint32_t k = span.begin; k < span.end; k += Lanes<Pack>::width) {
-    visit(k, static_cast<int>(std::min<std::uint32_t>(Lanes<Pack>::width, span.end - k)));
+[[gnu::always_inline]] inline void for_packs(const NeighbourList<Pack>& list, std::size_t i, Span far, Visit&& visit) {
+  constexpr std::uint32_t width = Lanes<Pack>::width;
+  const auto visit_whole = [&](const auto& rows, std::uint32_t first, std::uint32_t n) {
+    visit(rows.columns() + first, rows.values() + first, static_cast<int>(n));
+  };
+  Span near = list.near().span(i);
+  for (; near.begin + width <= near.end; near.begin += width) visit_whole(list.near(), near.begin, width);
+  if (const std::uint32_t left = near.end - near.begin; left > 0) {
+    std::array<std::int32_t, width> columns{};
+    std::array<typename Lanes<Pack>::Real, width> weights{};
+    std::uint32_t n = 0;
+    for (; n < left; ++n) {
+      columns[n] = list.near().columns()[near.begin + n];
+      weights[n] = list.near().values()[near.begin + n];
+    }
+    for (; n < width && far.begin < far.end; ++n, ++far.begin) {
+      columns[n] = list.far().columns()[far.begin];
+      weights[n] = list.far().values()[far.begin];
+    }
+    visit(columns.data(), weights.data(), static_cast<int>(n));
   }
+  for (; far.begin < far.end; far.begin += width)
+    visit_whole(list.far(), far.begin, std::min(width, far.end - far.begin));
 }
 
 /// r_ij of a pack of entries [quantum].
@@ -37,12 +58,10 @@ template <class Pack, class Real>
           L::gather(field.z.data(), columns, n)};
 }
 
-template <class Real>
-Real least_pressure(const std::vector<double>& pressure, std::size_t i, Span span, const std::int32_t* columns) {
-  double least = pressure[i];
+double least_pressure(const std::vector<double>& pressure, Span span, const std::int32_t* columns, double least) {
   for (std::uint32_t k = span.begin; k < span.end; ++k)
     least = std::min(least, pressure[static_cast<std::size_t>(columns[k])]);
-  return static_cast<Real>(least);
+  return least;
 }
 
 template <class Pack>
@@ -70,8 +89,7 @@ void predict_velocities(const Particles<Pack>& p, const NeighbourList<Pack>& lis
     const auto i = static_cast<std::size_t>(k);
     const auto u = p.velocity.template at<Pack>(i);
     Vec3<Pack> laplacian{};
-    for_packs<Pack>(list.all(i), [&](std::uint32_t at, int lanes) {
-      const std::int32_t* columns = list.columns() + at;
+    for_packs<Pack>(list, i, list.far().span(i), [&](const std::int32_t* columns, const Real*, int lanes) {
       const Vec3<Pack> r = differences(p, i, columns, lanes);
       const Pack omega = where_positive(L::first(lanes), weight(square_root(dot(r, r)), radius));
       const auto uj = gathered<Pack>(p.velocity, columns, lanes);
@@ -88,14 +106,14 @@ Vec3d pressure_gradient(const Particles<Pack>& p, const NeighbourList<Pack>& lis
                         std::size_t i, bool& plain) {
   using L = Lanes<Pack>;
   using Real = typename L::Real;
-  const Span span = list.with_pressure(i);
-  const Pack reference(least_pressure<Real>(p.pressure, i, span, list.columns()));
+  const Span far = list.far_with_pressure(i);
+  const double least = least_pressure(p.pressure, list.near().span(i), list.near().columns(), p.pressure[i]);
+  const Pack reference(static_cast<Real>(least_pressure(p.pressure, far, list.far().columns(), least)));
   Vec3<Pack> sum{};
   Symmetric3<Pack> matrix{};
-  for_packs<Pack>(span, [&](std::uint32_t at, int lanes) {
-    const std::int32_t* columns = list.columns() + at;
+  for_packs<Pack>(list, i, far, [&](const std::int32_t* columns, const Real* weights, int lanes) {
     const Vec3<Pack> r = differences(p, i, columns, lanes);
-    const Pack omega = where_positive(L::first(lanes), L::load(list.weights() + at));
+    const Pack omega = where_positive(L::first(lanes), L::load(weights));
     const Pack distance2 = dot(r, r);
     sum += gradient_term(reference, L::gather(p.pressure.data(), columns, lanes), r, distance2, omega);
     matrix += correction_term(r, distance2, omega);

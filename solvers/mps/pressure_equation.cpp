@@ -12,20 +12,13 @@ constexpr std::uint32_t few_neighbours = 4;
 
 /// n_i < beta_1 n0 and sigma_i > varrho_1 l0   Eqs. (28) and (29)
 template <class Pack>
-bool is_at_surface(const Particles<Pack>& p, const OperatorConstants& c, std::size_t i, Span neighbours) {
-  if (neighbours.end - neighbours.begin <= few_neighbours) return true;
+bool is_at_surface(const Particles<Pack>& p, const OperatorConstants& c, std::size_t i, std::uint32_t neighbours) {
+  if (neighbours <= few_neighbours) return true;
   const auto& parameters = c.parameters;
   return static_cast<double>(p.number_density[i])<parameters.least_density_ratio *
                                                   c.lattice.number_density&& static_cast<double>(p.centroid_offset[i])>
              parameters.centroid_over_distance *
          parameters.particle_distance_m;
-}
-
-template <class Real>
-Real sum_of_weights(const Real* weights, Span span) {
-  Real sum{};
-  for (std::uint32_t e = span.begin; e < span.end; ++e) sum += weights[e];
-  return sum;
 }
 
 }  // namespace
@@ -48,7 +41,7 @@ void PressureEquation<Pack>::assemble(const Particles<Pack>& p, const NeighbourL
   // Near neighbours make up for those left out.
   const auto near_factor = static_cast<Real>(1 / c_.lattice.near_share);
   const double n0 = c_.lattice.number_density;
-  rows_.resize(p.size());
+  far_.resize(p.size());
   diagonal_.resize(p.size());
   near_diagonal_.resize(p.size());
   has_row_.assign(p.size(), 0);
@@ -57,17 +50,19 @@ void PressureEquation<Pack>::assemble(const Particles<Pack>& p, const NeighbourL
 #pragma omp parallel for num_threads(threads_) schedule(static, 512)
   for (auto k = static_cast<std::int64_t>(p.first_wall()); k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const bool has_row = !is_at_surface(p, c_, i, list.all(i));
-    rows_[i] = list.with_pressure(i);
+    const bool has_row = !is_at_surface(p, c_, i, list.count(i));
+    far_[i] = list.far_with_pressure(i);
     has_row_[i] = has_row ? 1 : 0;
     right_side_[i] = has_row ? source * (static_cast<double>(p.number_density[i]) - n0) / n0 : 0.0;
     const auto c = static_cast<Real>(compressibility);
-    diagonal_[i] = c + sum_of_weights(list.weights(), rows_[i]);
-    near_diagonal_[i] = c + near_factor * sum_of_weights(list.near().values(), list.near().span(i));
+    diagonal_[i] = c + list.near_weight(i) + list.far_weight(i);
+    near_diagonal_[i] = c + near_factor * list.near_weight(i);
   }
-  const SparseRows<Real>& near = list.near();
-  matrix_ = {{rows_, list.columns(), list.weights(), diagonal_},
-             {near.spans(), near.columns(), near.values(), near_diagonal_, near_factor},
+  matrix_ = {{list.near().spans(), list.near().columns(), list.near().values()},
+             {far_, list.far().columns(), list.far().values()},
+             diagonal_,
+             near_diagonal_,
+             near_factor,
              has_row_,
              p.first_wall(),
              p.size()};
@@ -79,12 +74,11 @@ PressureReport PressureEquation<Pack>::solve(Particles<Pack>& p, const Neighbour
   PressureReport report;
   const bool multigrid = c_.parameters.preconditioner == Preconditioner::multigrid;
   if (multigrid) multigrid_.prepare(matrix_, p.position.x, p.position.y, p.position.z);
-  const auto precondition = [&](std::span<const double> r, std::span<double> z) {
-    if (multigrid) {
-      multigrid_.apply(r, z);
-    } else {
-      jacobi(matrix_, r, z, threads_);
-    }
+  if (!multigrid) jacobi_.resize(p.size());
+  const auto precondition = [&](std::span<const double> r) -> std::span<const Real> {
+    if (multigrid) return multigrid_.apply(r);
+    jacobi(matrix_, r, std::span(jacobi_), threads_);
+    return jacobi_;
   };
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (has_row_[i] == 0) p.pressure[i] = 0;
@@ -107,8 +101,8 @@ PressureReport PressureEquation<Pack>::solve(Particles<Pack>& p, const Neighbour
 
 template <class Pack>
 std::int64_t PressureEquation<Pack>::memory_bytes() const {
-  return multigrid_.memory_bytes() + conjugate_gradients_.memory_bytes() + bytes(rows_) + bytes(diagonal_) +
-         bytes(near_diagonal_) + bytes(has_row_) + bytes(right_side_);
+  return multigrid_.memory_bytes() + conjugate_gradients_.memory_bytes() + bytes(far_) + bytes(diagonal_) +
+         bytes(near_diagonal_) + bytes(jacobi_) + bytes(has_row_) + bytes(right_side_);
 }
 
 template class PressureEquation<double>;

@@ -55,8 +55,8 @@ class PressureEquation {
   Multigrid<Real> multigrid_;
   ConjugateGradients<Real> conjugate_gradients_;
   PressureMatrix<Real> matrix_;
-  std::vector<Span> rows_;
-  std::vector<Real> diagonal_, near_diagonal_;
+  std::vector<Span> far_;  ///< of far rows the entries that have a pressure
+  std::vector<Real> diagonal_, near_diagonal_, jacobi_;
   std::vector<std::uint8_t> has_row_;
   std::vector<double> right_side_;
 };

@@ -12,43 +12,49 @@
 
 namespace sluice::mps {
 
-/// Which entries of each row count, and what stands on the diagonal.
+/// Some of the entries of each row. Behind those of a row come entries of weight zero, up to a whole unit.
 template <class Real>
-struct MatrixRows {
-  std::span<const Span> entries;  ///< off-diagonal entries of each row
+struct Entries {
+  std::span<const Span> rows;
   const std::int32_t* columns = nullptr;
-  const Real* weights = nullptr;   ///< omega_ij >= 0; the entry is -factor omega_ij
-  std::span<const Real> diagonal;  ///< positive
-  Real factor = 1;                 ///< of the off-diagonal entries
+  const Real* weights = nullptr;  ///< omega_ij >= 0; the entry is -omega_ij
 };
 
 /// A view. Vectors that it is applied to have an element for every index below `end`, zero where there is no row.
 template <class Real>
 struct PressureMatrix {
-  MatrixRows<Real> all;
-  MatrixRows<Real> near;                  ///< its like with the nearest neighbours only, good enough to smooth with
+  Entries<Real> near;                     ///< off the diagonal, those of the nearest neighbours
+  Entries<Real> far;                      ///< and of the others; without rows where all are near
+  std::span<const Real> diagonal;         ///< positive
+  std::span<const Real> near_diagonal;    ///< of a matrix with the near entries only, good enough to smooth with
+  Real near_factor = 1;                   ///< by which its entries make up for those left out
   std::span<const std::uint8_t> has_row;  ///< the unknowns
   std::size_t begin = 0;                  ///< rows lie in begin .. end - 1
   std::size_t end = 0;
+
+  bool has_far() const { return !far.rows.empty(); }
 };
 
-/// factor sum_j omega_ij x_j of row i: as many sums side by side as a row has units, added up in a fixed order. Behind
-/// a row's entries there may be others up to a whole unit; they are read, and count nothing.
+/// sum_j omega_ij x_j of row i: as many sums side by side as a row has units, added up in a fixed order. Rows are filled
+/// up to whole units with zeros.
 template <class Real, class Value>
-[[gnu::always_inline]] inline Value off_diagonal(const MatrixRows<Real>& rows, std::size_t i, const Value* x) {
-  const Span s = rows.entries[i];
+[[gnu::always_inline]] inline Value off_diagonal(const Entries<Real>& entries, std::size_t i, const Value* x) {
+  const Span row = entries.rows[i];
   std::array<Value, row_unit> sums{};
-  std::uint32_t k = s.begin;
-  for (; k + row_unit <= s.end; k += row_unit) {
+  for (std::uint32_t k = row.begin; k < row.end; k += row_unit) {
     for (std::uint32_t m = 0; m < row_unit; ++m)
-      sums[m] += static_cast<Value>(rows.weights[k + m]) * x[rows.columns[k + m]];
+      sums[m] += static_cast<Value>(entries.weights[k + m]) * x[entries.columns[k + m]];
   }
-  if (const std::uint32_t left = s.end - k; left > 0) {
-    for (std::uint32_t m = 0; m < row_unit; ++m)
-      sums[m] += (m < left ? static_cast<Value>(rows.weights[k + m]) : Value{}) * x[rows.columns[k + m]];
-  }
-  const Value sum = ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
-  return static_cast<Value>(rows.factor) * sum;
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+}
+
+/// Element i of A x, zero where there is no row.
+template <class Real, class Value>
+[[gnu::always_inline]] inline Value product(const PressureMatrix<Real>& A, std::size_t i, const Value* x) {
+  if (A.has_row[i] == 0) return 0;
+  Value sum = off_diagonal(A.near, i, x);
+  if (A.has_far()) sum += off_diagonal(A.far, i, x);
+  return static_cast<Value>(A.diagonal[i]) * x[i] - sum;
 }
 
 }  // namespace sluice::mps

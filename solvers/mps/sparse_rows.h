@@ -54,17 +54,22 @@ class SparseRows {
   class Writer {
    public:
     explicit Writer(SparseRows& rows) : rows_(rows) {}
-    /// Writes one row; without room it only counts what was needed.
+    /// Writes one row, entries from `begin` on first; without room it only counts what was needed. Whole units may be
+    /// read from the row's first entry on, or from what `begin` has become.
     void write(std::size_t row, const std::int32_t* columns, const Real* values, std::size_t count) {
-      const std::size_t filled = (count + row_unit - 1) / row_unit * row_unit;
+      write(row, columns, values, count, count);
+    }
+    void write(std::size_t row, const std::int32_t* columns, const Real* values, std::size_t count, std::size_t begin) {
+      const std::size_t beyond = begin < count ? row_unit : 0;
+      const std::size_t filled = (count + beyond + row_unit - 1) / row_unit * row_unit;
       if (next_ + filled > last_) {
         const std::size_t block = std::max<std::size_t>(filled, 4096);
         next_ = rows_.used_.fetch_add(block);
         last_ = next_ + block;
       }
       if (last_ <= rows_.columns_.size()) {
-        std::copy_n(columns, count, rows_.columns_.begin() + static_cast<std::ptrdiff_t>(next_));
-        std::copy_n(values, count, rows_.values_.begin() + static_cast<std::ptrdiff_t>(next_));
+        std::rotate_copy(columns, columns + begin, columns + count, rows_.columns_.data() + next_);
+        std::rotate_copy(values, values + begin, values + count, rows_.values_.data() + next_);
         std::fill_n(rows_.columns_.begin() + static_cast<std::ptrdiff_t>(next_ + count), filled - count,
                     static_cast<std::int32_t>(row));
         std::fill_n(rows_.values_.begin() + static_cast<std::ptrdiff_t>(next_ + count), filled - count, Real{});

@@ -32,7 +32,7 @@ class CoarseRow {
     const Span row = entries.rows[i];
     for (std::uint32_t k = row.begin; k < row.end; ++k) {
       const std::int32_t J = coarse[static_cast<std::size_t>(entries.columns[k])];
-      values_[place_of(J < 0 ? nowhere_ : J)][k % turns] += entries.weights[k];
+      values_[place_of(J < 0 ? nowhere_ : J)][(k - row.begin) % turns] += entries.weights[k];
     }
   }
 

@@ -130,11 +130,14 @@ void Multigrid<Real>::gather_cells(std::size_t l) {
     coarse.cell.push_back({at % fine.nx / 2, at / fine.nx % fine.ny / 2, at / fine.nx / fine.ny / 2});
   }
   fine.member_start.assign(coarse.cell.size() + 2, 0);
-  for (std::size_t i = fine.begin(); i < fine.end(); ++i) {
-    if (fine.matrix.has_row[i] == 0) continue;
-    fine.coarse[i] = fine.number_of_cell[grid_cell(fine.cell[i])];
-    ++fine.member_start[static_cast<std::size_t>(fine.coarse[i]) + 2];
+  const auto n = static_cast<std::int64_t>(fine.end());
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (auto k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (fine.matrix.has_row[i] != 0) fine.coarse[i] = fine.number_of_cell[grid_cell(fine.cell[i])];
   }
+  for (std::size_t i = fine.begin(); i < fine.end(); ++i)
+    if (fine.coarse[i] >= 0) ++fine.member_start[static_cast<std::size_t>(fine.coarse[i]) + 2];
   for (std::size_t c = 2; c < fine.member_start.size(); ++c) fine.member_start[c] += fine.member_start[c - 1];
   fine.members.resize(static_cast<std::size_t>(fine.member_start.back()));
   for (std::size_t i = fine.begin(); i < fine.end(); ++i) {
@@ -234,9 +237,10 @@ void Multigrid<Real>::restrict_residual(Level& fine, Level& coarse) {
 #pragma omp for schedule(static, rows_at_once)
     for (auto k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      fine.scratch[i] = fine.coarse[i] < 0 ? 0
-                                           : fine.b[i] - fine.matrix.near_diagonal[i] * fine.x[i] +
-                                                 fine.matrix.near_factor * off_diagonal(fine.matrix.near, i, fine.x.data());
+      fine.scratch[i] = fine.coarse[i] < 0
+                            ? 0
+                            : fine.b[i] - fine.matrix.near_diagonal[i] * fine.x[i] +
+                                  fine.matrix.near_factor * off_diagonal(fine.matrix.near, i, fine.x.data());
     }
 #pragma omp for schedule(static, rows_at_once)
     for (std::int64_t c = 0; c < cells; ++c) {

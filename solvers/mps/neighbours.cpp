@@ -11,8 +11,8 @@ namespace sluice::mps {
 namespace {
 
 // Entries of the two rows in a full lattice, rounded up to whole units, and a few more.
-constexpr std::size_t expected_near = 26;
-constexpr std::size_t expected_far = 33;
+constexpr std::size_t expected_near = 23;
+constexpr std::size_t expected_far = 30;
 
 template <class Pack, class Real>
 Real sum_of(const std::vector<Real>& values, std::size_t n) {
@@ -154,8 +154,7 @@ void NeighbourList<Pack>::finish_sums(Particles<Pack>& particles, std::size_t i,
 
 template <class Pack>
 std::int64_t NeighbourList<Pack>::memory_bytes() const {
-  return near_.memory_bytes() + far_.memory_bytes() + bytes(dummies_) +
-         bytes(near_weight_) + bytes(far_weight_);
+  return near_.memory_bytes() + far_.memory_bytes() + bytes(dummies_) + bytes(near_weight_) + bytes(far_weight_);
 }
 
 template class NeighbourList<double>;

@@ -26,8 +26,8 @@ struct Reach {
   double near_radius_m = 0;  ///< of the near neighbours, no more than the effective radius
 };
 
-/// Two rows a particle, with weights omega_ij as values: near neighbours that have a pressure, which collide and smooth;
-/// and all others, of which dummies come first. Those who want all read both, and nothing is stored twice.
+/// Two rows a particle, with weights omega_ij as values: near neighbours that have a pressure, which collide and
+/// smooth; and all others, of which dummies come first. Those who want all read both, and nothing is stored twice.
 template <class Pack>
 class NeighbourList {
  public:

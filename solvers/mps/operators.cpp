@@ -58,10 +58,14 @@ template <class Pack, class Real>
           L::gather(field.z.data(), columns, n)};
 }
 
-double least_pressure(const std::vector<double>& pressure, Span span, const std::int32_t* columns, double least) {
-  for (std::uint32_t k = span.begin; k < span.end; ++k)
-    least = std::min(least, pressure[static_cast<std::size_t>(columns[k])]);
-  return least;
+/// Of a particle's own pressure and those of some neighbours; what fills rows up is the particle itself.
+double least_pressure(const std::vector<double>& pressure, Span span, const std::int32_t* columns, double own) {
+  std::array<double, row_unit> least{};
+  least.fill(own);
+  for (std::uint32_t k = span.begin; k < span.end; k += row_unit)
+    for (std::uint32_t m = 0; m < row_unit; ++m)
+      least[m] = std::min(least[m], pressure[static_cast<std::size_t>(columns[k + m])]);
+  return *std::min_element(least.begin(), least.end());
 }
 
 template <class Pack>

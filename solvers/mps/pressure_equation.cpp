@@ -80,10 +80,15 @@ PressureReport PressureEquation<Pack>::solve(Particles<Pack>& p, const Neighbour
     jacobi(matrix_, r, std::span(jacobi_), threads_);
     return jacobi_;
   };
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  std::int64_t unknowns = 0;
+  const auto n = static_cast<std::int64_t>(p.size());
+#pragma omp parallel for num_threads(threads_) schedule(static) reduction(+ : unknowns)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto i = static_cast<std::size_t>(k);
     if (has_row_[i] == 0) p.pressure[i] = 0;
-    report.unknowns += has_row_[i];
+    unknowns += has_row_[i];
   }
+  report.unknowns = unknowns;
   report.convergence = conjugate_gradients_.solve(matrix_, right_side_, p.pressure, precondition,
                                                   c_.parameters.tolerance, c_.parameters.most_iterations);
   if (!report.convergence.converged) {
@@ -92,10 +97,14 @@ PressureReport PressureEquation<Pack>::solve(Particles<Pack>& p, const Neighbour
         "wanted; try a smaller courant or more iterations",
         report.unknowns, report.convergence.relative_residual, report.convergence.iterations, c_.parameters.tolerance));
   }
-  for (double& pressure : p.pressure) {
-    report.set_to_zero += pressure < 0;
+  std::int64_t set_to_zero = 0;
+#pragma omp parallel for num_threads(threads_) schedule(static) reduction(+ : set_to_zero)
+  for (std::int64_t k = 0; k < n; ++k) {
+    double& pressure = p.pressure[static_cast<std::size_t>(k)];
+    set_to_zero += pressure < 0;
     pressure = std::max(0.0, pressure);
   }
+  report.set_to_zero = set_to_zero;
   return report;
 }
 

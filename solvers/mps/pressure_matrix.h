@@ -35,8 +35,7 @@ struct PressureMatrix {
   bool has_far() const { return !far.rows.empty(); }
 };
 
-/// sum_j omega_ij x_j of row i: as many sums side by side as a row has units, added up in a fixed order. Rows are filled
-/// up to whole units with zeros.
+/// sum_j omega_ij x_j of row i, in two sums side by side.
 template <class Real, class Value>
 [[gnu::always_inline]] inline Value off_diagonal(const Entries<Real>& entries, std::size_t i, const Value* x) {
   const Span row = entries.rows[i];
@@ -45,7 +44,7 @@ template <class Real, class Value>
     for (std::uint32_t m = 0; m < row_unit; ++m)
       sums[m] += static_cast<Value>(entries.weights[k + m]) * x[entries.columns[k + m]];
   }
-  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+  return sums[0] + sums[1];
 }
 
 /// Element i of A x, zero where there is no row.

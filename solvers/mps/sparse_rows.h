@@ -11,8 +11,9 @@
 
 namespace sluice::mps {
 
-/// Rows are filled up to a multiple of this with entries of value zero, so that loops over them need no remainder.
-constexpr std::size_t row_unit = 8;
+/// Rows are filled up to a multiple of this with entries of value zero, so that loops over them need no remainder. Two
+/// sums side by side hide enough latency; more only add zeros to read.
+constexpr std::size_t row_unit = 2;
 
 /// A part of one row: entries begin .. end - 1.
 struct Span {
@@ -29,9 +30,9 @@ class SparseRows {
       resize(entries);
     }
   }
-  /// Empties all rows; the number of rows changes to the given one.
+  /// For a filling anew: rows that it does not write stay as they are, new ones are empty.
   void clear(std::size_t rows) {
-    spans_.assign(rows, Span{});
+    spans_.resize(rows);
     used_ = 0;
   }
   /// Doubles the room if the last filling did not fit. True if it did not: then it must be repeated.

@@ -31,12 +31,17 @@ struct Lanes<double> {
   static double load(const double* p) { return *p; }
   static double difference(const double* to, double from) { return *to - from; }
   template <class T>
-  static double gather(const T* values, const std::int32_t* index, int) {
+  static double gather(const T* values, const std::int32_t* index) {
     return static_cast<double>(values[*index]);
   }
-  static double difference_at(const double* to, const std::int32_t* index, int, double from) {
-    return to[*index] - from;
+  static double difference_at(const double* to, const std::int32_t* index, double from) { return to[*index] - from; }
+  template <class T>
+  static T joined(const T* a, int n, const T* b) {
+    return n > 0 ? *a : *b;
   }
+  static std::int32_t with_repeats(std::int32_t index, int) { return index; }
+  static void store(std::int32_t v, std::int32_t* p) { *p = v; }
+  static std::int32_t load(const std::int32_t* p) { return *p; }
   static void store(double v, double* p) { *p = v; }
   static void store_between(double v, double low, double high, std::int32_t* p) { *p = v > low && v < high; }
   static double first(int) { return 1; }
@@ -70,20 +75,39 @@ struct Lanes<FloatPack> {
     return stdx::static_simd_cast<FloatPack>(stdx::static_simd_cast<Integers>(wrapped));
   }
 
-  /// values[index[k]] in lane k; lanes from n on repeat the first.
+  /// values[index[k]] in lane k.
   template <class T>
-  [[gnu::always_inline]] static FloatPack gather(const T* values, const std::int32_t* index, int n) {
+  [[gnu::always_inline]] static FloatPack gather(const T* values, const std::int32_t* index) {
     std::array<float, width> v;
-    for_lanes(index, n, [&](std::size_t lane, std::int32_t at) { v[lane] = static_cast<float>(values[at]); });
+    for (std::size_t k = 0; k < width; ++k) v[k] = static_cast<float>(values[index[k]]);
     return load(v.data());
   }
-  /// to[index[k]] - from in quanta, as `difference`; lanes from n on repeat the first.
-  [[gnu::always_inline]] static FloatPack difference_at(const std::int32_t* to, const std::int32_t* index, int n,
+  /// to[index[k]] - from in quanta, as `difference`.
+  [[gnu::always_inline]] static FloatPack difference_at(const std::int32_t* to, const std::int32_t* index,
                                                         std::int32_t from) {
     std::array<std::int32_t, width> v;
-    for_lanes(index, n, [&](std::size_t lane, std::int32_t at) { v[lane] = to[at]; });
+    for (std::size_t k = 0; k < width; ++k) v[k] = to[index[k]];
     return difference(v.data(), from);
   }
+  /// Lanes 0 .. n - 1 are a's, the others b[0], b[1] and so on. Reads a whole pack from a and one from n before b.
+  [[gnu::always_inline]] static FloatPack joined(const float* a, int n, const float* b) {
+    FloatPack pack = load(b - n);
+    if (n > 0) stdx::where(first(n) > FloatPack{}, pack) = load(a);
+    return pack;
+  }
+  [[gnu::always_inline]] static Integers joined(const std::int32_t* a, int n, const std::int32_t* b) {
+    Integers pack = load(b - n);
+    if (n > 0) stdx::where(first_integers(n) > Integers{}, pack) = load(a);
+    return pack;
+  }
+  /// Lanes from n on repeat the first.
+  [[gnu::always_inline]] static Integers with_repeats(Integers index, int n) {
+    Integers repeated = index[0];
+    stdx::where(first_integers(n) > Integers{}, repeated) = index;
+    return repeated;
+  }
+  [[gnu::always_inline]] static Integers load(const std::int32_t* p) { return Integers(p, stdx::element_aligned); }
+  [[gnu::always_inline]] static void store(Integers v, std::int32_t* p) { v.copy_to(p, stdx::element_aligned); }
 
   /// One in the first n lanes (0 < n <= width), zero in the others: a window that slides over ones and zeros.
   [[gnu::always_inline]] static FloatPack first(int n) {
@@ -97,14 +121,7 @@ struct Lanes<FloatPack> {
   }
 
  private:
-  template <class Visit>
-  [[gnu::always_inline]] static void for_lanes(const std::int32_t* index, int n, Visit&& visit) {
-    if (n >= width) {
-      for (std::size_t k = 0; k < width; ++k) visit(k, index[k]);
-    } else {
-      for (std::size_t k = 0; k < width; ++k) visit(k, index[k < static_cast<std::size_t>(n) ? k : 0]);
-    }
-  }
+  [[gnu::always_inline]] static Integers first_integers(int n) { return stdx::static_simd_cast<Integers>(first(n)); }
 
   static constexpr std::array<float, 2 * width> ones_then_zeros = [] {
     std::array<float, 2 * width> a{};

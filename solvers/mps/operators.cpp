@@ -14,48 +14,45 @@ namespace {
 constexpr double least_determinant = 0.01;
 
 /// Calls visit(columns, weights, how many) for each pack of a particle's near neighbours and of a part of its far ones;
-/// one pack takes the end of the former and the begin of the latter.
+/// one pack takes the end of the former and the begin of the latter. Columns are whole packs, what is too many repeats.
 template <class Pack, class Visit>
 [[gnu::always_inline]] inline void for_packs(const NeighbourList<Pack>& list, std::size_t i, Span far, Visit&& visit) {
-  constexpr std::uint32_t width = Lanes<Pack>::width;
-  const auto visit_whole = [&](const auto& rows, std::uint32_t first, std::uint32_t n) {
-    visit(rows.columns() + first, rows.values() + first, static_cast<int>(n));
-  };
-  Span near = list.near().span(i);
-  for (; near.begin + width <= near.end; near.begin += width) visit_whole(list.near(), near.begin, width);
-  if (const std::uint32_t left = near.end - near.begin; left > 0) {
-    std::array<std::int32_t, width> columns{};
-    std::array<typename Lanes<Pack>::Real, width> weights{};
-    std::uint32_t n = 0;
-    for (; n < left; ++n) {
-      columns[n] = list.near().columns()[near.begin + n];
-      weights[n] = list.near().values()[near.begin + n];
-    }
-    for (; n < width && far.begin < far.end; ++n, ++far.begin) {
-      columns[n] = list.far().columns()[far.begin];
-      weights[n] = list.far().values()[far.begin];
-    }
-    visit(columns.data(), weights.data(), static_cast<int>(n));
+  using L = Lanes<Pack>;
+  constexpr std::uint32_t width = L::width;
+  const auto& near_rows = list.near();
+  const auto& far_rows = list.far();
+  Span near = near_rows.span(i);
+  for (; near.begin + width <= near.end; near.begin += width)
+    visit(near_rows.columns() + near.begin, L::load(near_rows.values() + near.begin), static_cast<int>(width));
+  while (near.begin < near.end || far.begin < far.end) {
+    const std::uint32_t before = near.end - near.begin;
+    const std::uint32_t n = std::min(width, before + (far.end - far.begin));
+    const auto first = static_cast<int>(before);
+    std::array<std::int32_t, width> columns;
+    L::store(L::with_repeats(L::joined(near_rows.columns() + near.begin, first, far_rows.columns() + far.begin),
+                             static_cast<int>(n)),
+             columns.data());
+    visit(columns.data(), L::joined(near_rows.values() + near.begin, first, far_rows.values() + far.begin),
+          static_cast<int>(n));
+    near.begin = near.end;
+    far.begin += n - before;
   }
-  for (; far.begin < far.end; far.begin += width)
-    visit_whole(list.far(), far.begin, std::min(width, far.end - far.begin));
 }
 
 /// r_ij of a pack of entries [quantum].
 template <class Pack>
 [[gnu::always_inline]] inline Vec3<Pack> differences(const Particles<Pack>& p, std::size_t i,
-                                                     const std::int32_t* columns, int n) {
+                                                     const std::int32_t* columns) {
   using L = Lanes<Pack>;
   const auto& x = p.coordinate;
-  return {L::difference_at(x.x.data(), columns, n, x.x[i]), L::difference_at(x.y.data(), columns, n, x.y[i]),
-          L::difference_at(x.z.data(), columns, n, x.z[i])};
+  return {L::difference_at(x.x.data(), columns, x.x[i]), L::difference_at(x.y.data(), columns, x.y[i]),
+          L::difference_at(x.z.data(), columns, x.z[i])};
 }
 
 template <class Pack, class Real>
-[[gnu::always_inline]] inline Vec3<Pack> gathered(const VectorField<Real>& field, const std::int32_t* columns, int n) {
+[[gnu::always_inline]] inline Vec3<Pack> gathered(const VectorField<Real>& field, const std::int32_t* columns) {
   using L = Lanes<Pack>;
-  return {L::gather(field.x.data(), columns, n), L::gather(field.y.data(), columns, n),
-          L::gather(field.z.data(), columns, n)};
+  return {L::gather(field.x.data(), columns), L::gather(field.y.data(), columns), L::gather(field.z.data(), columns)};
 }
 
 /// Of a particle's own pressure and those of some neighbours; what fills rows up is the particle itself.
@@ -93,10 +90,10 @@ void predict_velocities(const Particles<Pack>& p, const NeighbourList<Pack>& lis
     const auto i = static_cast<std::size_t>(k);
     const auto u = p.velocity.template at<Pack>(i);
     Vec3<Pack> laplacian{};
-    for_packs<Pack>(list, i, list.far().span(i), [&](const std::int32_t* columns, const Real*, int lanes) {
-      const Vec3<Pack> r = differences(p, i, columns, lanes);
+    for_packs<Pack>(list, i, list.far().span(i), [&](const std::int32_t* columns, const Pack&, int lanes) {
+      const Vec3<Pack> r = differences(p, i, columns);
       const Pack omega = where_positive(L::first(lanes), weight(square_root(dot(r, r)), radius));
-      const auto uj = gathered<Pack>(p.velocity, columns, lanes);
+      const auto uj = gathered<Pack>(p.velocity, columns);
       laplacian += Vec3<Pack>{laplacian_term(u.x, uj.x, omega), laplacian_term(u.y, uj.y, omega),
                               laplacian_term(u.z, uj.z, omega)};
     });
@@ -115,11 +112,11 @@ Vec3d pressure_gradient(const Particles<Pack>& p, const NeighbourList<Pack>& lis
   const Pack reference(static_cast<Real>(least_pressure(p.pressure, far, list.far().columns(), least)));
   Vec3<Pack> sum{};
   Symmetric3<Pack> matrix{};
-  for_packs<Pack>(list, i, far, [&](const std::int32_t* columns, const Real* weights, int lanes) {
-    const Vec3<Pack> r = differences(p, i, columns, lanes);
-    const Pack omega = where_positive(L::first(lanes), L::load(weights));
+  for_packs<Pack>(list, i, far, [&](const std::int32_t* columns, const Pack& weights, int lanes) {
+    const Vec3<Pack> r = differences(p, i, columns);
+    const Pack omega = where_positive(L::first(lanes), weights);
     const Pack distance2 = dot(r, r);
-    sum += gradient_term(reference, L::gather(p.pressure.data(), columns, lanes), r, distance2, omega);
+    sum += gradient_term(reference, L::gather(p.pressure.data(), columns), r, distance2, omega);
     matrix += correction_term(r, distance2, omega);
   });
   const double n0 = c.lattice.number_density;

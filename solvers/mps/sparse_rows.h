@@ -26,18 +26,16 @@ class SparseRows {
  public:
   void reserve(std::size_t rows, std::size_t entries) {
     spans_.resize(rows);
-    if (entries > columns_.size()) {
-      resize(entries);
-    }
+    if (overread + entries > room()) resize(overread + entries);
   }
   /// For a filling anew: rows that it does not write stay as they are, new ones are empty.
   void clear(std::size_t rows) {
     spans_.resize(rows);
-    used_ = 0;
+    used_ = overread;
   }
   /// Doubles the room if the last filling did not fit. True if it did not: then it must be repeated.
   bool grew_for_more() {
-    if (used_.load() <= columns_.size()) return false;
+    if (used_.load() <= room()) return false;
     const std::size_t wanted = used_.load() + used_.load() / 4;
     resize(wanted);
     return true;
@@ -68,7 +66,7 @@ class SparseRows {
         next_ = rows_.used_.fetch_add(block);
         last_ = next_ + block;
       }
-      if (last_ <= rows_.columns_.size()) {
+      if (last_ <= rows_.room()) {
         std::rotate_copy(columns, columns + begin, columns + count, rows_.columns_.data() + next_);
         std::rotate_copy(values, values + begin, values + count, rows_.values_.data() + next_);
         std::fill_n(rows_.columns_.begin() + static_cast<std::ptrdiff_t>(next_ + count), filled - count,
@@ -86,17 +84,18 @@ class SparseRows {
   };
 
  private:
-  static constexpr std::size_t overread = 64;  ///< packs may read past the last entry
+  static constexpr std::size_t overread = 64;  ///< packs may read past the last entry, and before the first
 
-  void resize(std::size_t entries) {
-    columns_.resize(entries);
-    values_.resize(entries + overread);
+  std::size_t room() const { return columns_.empty() ? 0 : columns_.size() - overread; }
+  void resize(std::size_t room) {
+    columns_.resize(room + overread);
+    values_.resize(room + overread);
   }
 
   std::vector<Span> spans_;
   std::vector<std::int32_t> columns_;
   std::vector<Real> values_;
-  std::atomic<std::size_t> used_{0};
+  std::atomic<std::size_t> used_{overread};
 };
 
 }  // namespace sluice::mps

@@ -93,10 +93,11 @@ double seconds_of(const fs::path& file, const std::string& unit) {
 
 /// Numbers of an entry that are no measurements.
 bool is_bookkeeping(const std::string& key) {
-  static constexpr std::array<std::string_view, 8> keys{"family_index", "per_family_instance_index",
+  static constexpr std::array<std::string_view, 9> keys{"family_index", "per_family_instance_index",
                                                         "repetitions",  "repetition_index",
                                                         "threads",      "iterations",
-                                                        "real_time",    "cpu_time"};
+                                                        "real_time",    "cpu_time",
+                                                        "omp_threads"};
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
@@ -125,7 +126,8 @@ std::map<std::string, double> values_of(const fs::path& file, const json& entry)
 }
 
 void take(const fs::path& file, const json& entry, Benchmark& benchmark) {
-  benchmark.threads = entry.value("threads", 0);
+  // Google's own count is of its threads, of which there is one; the programs here state those that they use.
+  benchmark.threads = entry.value("omp_threads", entry.value("threads", 0));
   if (entry.value("error_occurred", false)) {
     benchmark.error = entry.value("error_message", "the benchmark reported an error");
   } else if (entry.value("run_type", "iteration") == "iteration") {

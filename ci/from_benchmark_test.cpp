@@ -24,7 +24,7 @@ const char* const file_text = R"({
       "items_per_second": 2e5, "bytes_per_second": 8e4, "instructions": 1201 },
     { "name": "wcsph/pair_sums/1000", "run_name": "wcsph/pair_sums/1000", "run_type": "iteration",
       "repetition_index": 2, "threads": 1, "iterations": 10, "real_time": 6.0, "cpu_time": 5.0, "time_unit": "ms",
-      "items_per_second": 1.9e5, "bytes_per_second": 8e4, "instructions": 1202 },
+      "items_per_second": 1.9e5, "bytes_per_second": 8e4, "instructions": 1202, "omp_threads": 2.0e+00 },
     { "name": "other_median", "run_name": "other", "run_type": "aggregate", "aggregate_name": "median", "threads": 4,
       "iterations": 3, "real_time": 7.0, "cpu_time": 8.0, "time_unit": "us" },
     { "name": "other_cv", "run_name": "other", "run_type": "aggregate", "aggregate_name": "cv", "threads": 4,
@@ -85,7 +85,7 @@ TEST_F(FromBenchmarkTest, Provenance) {
   EXPECT_EQ(all.front().machine, "m");
   EXPECT_EQ(all.front().case_name, "benchmark");
   EXPECT_EQ(all.front().solver, "wcsph");
-  EXPECT_EQ(all.front().threads, 1);
+  EXPECT_EQ(all.front().threads, 2);
   EXPECT_EQ(all.back().solver, "mps");
   EXPECT_EQ(all.back().run, all.front().run);
   EXPECT_EQ(results(file_text, {.commit = "def", .machine = "m"}).front().commit, "def");

@@ -13,7 +13,6 @@
 namespace sluice::bench {
 namespace {
 
-using mps::Span;
 using Solver = mps::MpsSolver<FloatPack>;
 
 constexpr int steps_before = 3;  // so that pressures are those of a run

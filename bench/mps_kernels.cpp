@@ -102,9 +102,9 @@ Kernel neighbour_rows(double particles, int threads) {
   const auto s = std::make_shared<State>(particles, threads);
   const auto& p = s->particles_;
   const Rows all = rows(p.first_wall(), p.size(), [&](std::size_t i) { return s->list.count(i); });
-  // Of every particle its position and coordinates, of every row two spans (16), two sums (8) and a count (2).
+  // Of every particle its position and coordinates, of every row two spans (16), four sums (16) and a count (2).
   const auto n = static_cast<double>(p.size());
-  const double bytes = n * (24 + coordinates) + all.filled * 26 + all.entries * entry;
+  const double bytes = n * (24 + coordinates) + all.filled * 34 + all.entries * entry;
   return {[s] { s->list_rows(); }, {s->fluid(), bytes, all.entries * operations_of_listed_neighbour()}};
 }
 

@@ -7,16 +7,16 @@
 namespace sluice {
 namespace {
 
-/// Shrinks an obstacle; where it stands on the tank for good it reaches into the tank's wall instead, so that nothing
-/// creeps in between.
-Box core(const Obstacle& o, const Box& tank, double shrinks_m, double reaches_m) {
+/// Shrinks an obstacle; where it stands on the tank for good it reaches a particle distance into the tank's wall
+/// instead, as deep as a particle can be that is not lost, so that nothing creeps in between.
+Box shrunk(const Obstacle& o, const Box& tank, double by_m, double l0) {
   Box b = o.box;
   const bool moves = o.motion.moves();
   for (int a = 0; a < 3; ++a) {
     double& lower = component(b.lower, a);
     double& upper = component(b.upper, a);
-    lower += moves || lower > component(tank.lower, a) ? shrinks_m : -reaches_m;
-    upper -= moves || upper < component(tank.upper, a) ? shrinks_m : -reaches_m;
+    lower += moves || lower > component(tank.lower, a) ? by_m : -l0;
+    upper -= moves || upper < component(tank.upper, a) ? by_m : -l0;
   }
   return b;
 }
@@ -55,7 +55,7 @@ Tank::Tank(const Scene& scene)
   domain_.upper.z = inside_.upper.z + l0;
   bodies_.push_back(tank);
   for (const Obstacle& o : scene.fitted.obstacles) {
-    solids_.push_back({core(o, tank, l0, l0), core(o, tank, half_m_, l0), o.motion});
+    solids_.push_back({shrunk(o, tank, l0, l0), shrunk(o, tank, half_m_, l0), o.motion});
     if (!o.motion.moves()) {
       bodies_.push_back(o.box);
       continue;

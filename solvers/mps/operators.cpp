@@ -55,10 +55,11 @@ template <class Pack, class Real>
   return {L::gather(field.x.data(), columns), L::gather(field.y.data(), columns), L::gather(field.z.data(), columns)};
 }
 
-/// Of a particle's own pressure and those of some neighbours; what fills rows up is the particle itself.
-double least_pressure(const std::vector<double>& pressure, Span span, const std::int32_t* columns, double own) {
+/// Of the least pressure so far, the particle's own to begin with, and those of some neighbours; what fills rows up is
+/// the particle itself.
+double least_pressure(const std::vector<double>& pressure, Span span, const std::int32_t* columns, double so_far) {
   std::array<double, row_unit> least{};
-  least.fill(own);
+  least.fill(so_far);
   for (std::uint32_t k = span.begin; k < span.end; k += row_unit)
     for (std::uint32_t m = 0; m < row_unit; ++m)
       least[m] = std::min(least[m], pressure[static_cast<std::size_t>(columns[k + m])]);

@@ -44,6 +44,7 @@ template <class Real, class Value>
     for (std::uint32_t m = 0; m < row_unit; ++m)
       sums[m] += static_cast<Value>(entries.weights[k + m]) * x[entries.columns[k + m]];
   }
+  static_assert(row_unit == 2);
   return sums[0] + sums[1];
 }
 

@@ -13,11 +13,18 @@
 namespace sluice {
 
 RowGeometry::RowGeometry(const Box& domain_m, double radius, double slack, double slice)
-    : domain(domain_m), radius_m(radius), slack_m(slack), edge_m((radius + 2 * slack) / reach_rows), slice_m(slice) {
-  const auto cells = [](double length, double width) { return std::floor(length / width) + 1; };
-  const double x = cells(domain.upper.x - domain.lower.x, slice_m);
-  const double y = cells(domain.upper.y - domain.lower.y, edge_m) + 2 * reach_rows;
-  const double z = cells(domain.upper.z - domain.lower.z, edge_m) + 2 * reach_rows;
+    : domain(domain_m),
+      radius_m(radius),
+      slack_m(slack),
+      edge_m((radius + 2 * slack) / reach_rows),
+      slice_m(slice),
+      rows_per_m(1 / edge_m),
+      slices_per_m(1 / slice_m) {
+  // In the words of row_y() and slice(), so that rounding puts no point of the domain beyond the last of them.
+  const auto cells = [](double length, double per_m) { return std::floor(length * per_m) + 1; };
+  const double x = cells(domain.upper.x - domain.lower.x, slices_per_m);
+  const double y = cells(domain.upper.y - domain.lower.y, rows_per_m) + 2 * reach_rows;
+  const double z = cells(domain.upper.z - domain.lower.z, rows_per_m) + 2 * reach_rows;
   if (!(x * y * z < 2e9)) {
     throw std::invalid_argument(
         fmt::format("the domain has {:.3g} search slices, too many to index: choose a larger l0", x * y * z));
@@ -116,7 +123,7 @@ RowIndex::Stencil RowIndex::stencil(const RowGeometry& g) {
   };
   const auto slope = [](std::int32_t rows) { return static_cast<float>(rows > 0 ? -1 : rows < 0 ? 1 : 0); };
   std::size_t next_forward = 0;
-  std::size_t next_backward = Stencil::half;
+  std::size_t next_backward = std::tuple_size_v<ForwardRuns>;
   constexpr std::int32_t far = reach_rows;
   for (std::int32_t y = -far; y <= far; ++y) {
     for (std::int32_t z = -far; z <= far; ++z) {
@@ -128,60 +135,54 @@ RowIndex::Stencil RowIndex::stencil(const RowGeometry& g) {
       s.base[k] = (z * g.ny + y) * (g.nx + 1);
     }
   }
+  s.per_slice = static_cast<float>(1.0 / g.slice_m);
+  s.radius2 = static_cast<float>(g.radius_m * g.radius_m);
   return s;
 }
 
-RowIndex::Row RowIndex::row_search(std::int32_t row) const {
+RowIndex::Row RowIndex::row_search(std::int32_t row_y, std::int32_t row_z) const {
   const RowGeometry& g = geometry_;
-  const std::int32_t jz = row / g.ny;
-  const std::int32_t jy = row - jz * g.ny;
-  return {g.domain.lower.y + (jy - reach_rows) * g.edge_m, g.domain.lower.z + (jz - reach_rows) * g.edge_m,
-          &start_[at(row, 0)]};
+  return {g.domain.lower.y + (row_y - reach_rows) * g.edge_m, g.domain.lower.z + (row_z - reach_rows) * g.edge_m,
+          &start_[at(row_z * g.ny + row_y, 0)]};
 }
 
 /// All rows at once: the chord that the kernel's sphere cuts out of each gives the slices to visit.
-[[gnu::always_inline]] inline void RowIndex::find_runs(const Vec3d& point, const Row& row, double travel_m,
-                                                       std::size_t first_lane, std::span<Run> runs) const {
+template <std::size_t N>
+[[gnu::always_inline]] inline std::array<Run, N> RowIndex::find_runs(const Vec3d& point, const Row& row,
+                                                                     double travel_m) const {
   using Integers = Lanes<FloatPack>::Integers;
-  const RowGeometry& g = geometry_;
   const auto y = static_cast<float>(point.y - row.y_m);
   const auto z = static_cast<float>(point.z - row.z_m);
-  const auto per_slice = static_cast<float>(1.0 / g.slice_m);
-  const auto x = static_cast<float>(point.x - g.domain.lower.x) * per_slice;
+  const auto x = static_cast<float>(point.x - geometry_.domain.lower.x) * stencil_.per_slice;
   const auto travel = static_cast<float>(travel_m);
-  const auto radius2 = static_cast<float>(g.radius_m * g.radius_m);
   const float rounding_slices = 0.001F;
-  std::array<std::int32_t, Stencil::half> low;
-  std::array<std::int32_t, Stencil::half> high;
-  for (std::size_t k = 0; k < Stencil::half; k += FloatPack::size()) {
-    const auto load = [&](const auto& values) { return FloatPack(&values[first_lane + k], stdx::element_aligned); };
+  std::array<std::int32_t, Stencil::lanes> low;
+  std::array<std::int32_t, Stencil::lanes> high;
+  for (std::size_t k = 0; k < N; k += FloatPack::size()) {
+    const auto load = [&](const auto& values) { return FloatPack(&values[k], stdx::element_aligned); };
     const FloatPack dy = larger(load(stencil_.y_offset) + load(stencil_.y_slope) * y - travel, FloatPack(0));
     const FloatPack dz = larger(load(stencil_.z_offset) + load(stencil_.z_slope) * z - travel, FloatPack(0));
-    const FloatPack chord2 = radius2 - dy * dy - dz * dz;
-    const FloatPack reach =
-        square_root(larger(chord2, FloatPack(0))) * per_slice + (travel * per_slice + rounding_slices);
-    const Integers base(&stencil_.base[first_lane + k], stdx::element_aligned);
+    const FloatPack chord2 = stencil_.radius2 - dy * dy - dz * dz;
+    const FloatPack reach = square_root(larger(chord2, FloatPack(0))) * stencil_.per_slice +
+                            (travel * stencil_.per_slice + rounding_slices);
+    const Integers base(&stencil_.base[k], stdx::element_aligned);
     const FloatPack first = larger(x - reach, FloatPack(0));
-    FloatPack last = smaller(x + reach, FloatPack(static_cast<float>(g.nx - 1))) + 1.0F;
+    FloatPack last = smaller(x + reach, FloatPack(static_cast<float>(geometry_.nx - 1))) + 1.0F;
     stdx::where(chord2 <= 0.0F, last) = first;
     (base + stdx::static_simd_cast<Integers>(first)).copy_to(&low[k], stdx::element_aligned);
     (base + stdx::static_simd_cast<Integers>(last)).copy_to(&high[k], stdx::element_aligned);
   }
-  for (std::size_t r = 0; r < runs.size(); ++r) runs[r] = {row.start[low[r]], row.start[high[r]]};
+  std::array<Run, N> runs;
+  for (std::size_t r = 0; r < N; ++r) runs[r] = {row.start[low[r]], row.start[high[r]]};
+  return runs;
 }
 
 Runs RowIndex::neighbours(const Vec3d& point, const Row& row, double travel_m) const {
-  Runs runs;
-  constexpr std::size_t ahead = std::tuple_size_v<ForwardRuns>;
-  find_runs(point, row, travel_m, 0, std::span(runs).first<ahead>());
-  find_runs(point, row, travel_m, Stencil::half, std::span(runs).subspan<ahead>());
-  return runs;
+  return find_runs<rows_around>(point, row, travel_m);
 }
 
 ForwardRuns RowIndex::forward(const Vec3d& point, const Row& row, double travel_m) const {
-  ForwardRuns runs;
-  find_runs(point, row, travel_m, 0, runs);
-  return runs;
+  return find_runs<std::tuple_size_v<ForwardRuns>>(point, row, travel_m);
 }
 
 bool RowIndex::any_near(const Vec3d& point) const {
@@ -190,8 +191,8 @@ bool RowIndex::any_near(const Vec3d& point) const {
   const std::int32_t jz = g.row_z(point.z);
   const double x0 = point.x - g.domain.lower.x;
   const double reach = g.radius_m + g.slack_m;
-  const auto low = std::max(0, static_cast<std::int32_t>((x0 - reach) / g.slice_m));
-  const auto high = std::min(g.nx - 1, static_cast<std::int32_t>((x0 + reach) / g.slice_m));
+  const auto low = std::max(0, static_cast<std::int32_t>((x0 - reach) * g.slices_per_m));
+  const auto high = std::min(g.nx - 1, static_cast<std::int32_t>((x0 + reach) * g.slices_per_m));
   for (std::int32_t z = jz - reach_rows; z <= jz + reach_rows; ++z) {
     for (std::int32_t y = jy - reach_rows; y <= jy + reach_rows; ++y) {
       const std::int32_t row = z * g.ny + y;

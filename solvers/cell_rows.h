@@ -40,6 +40,8 @@ struct RowGeometry {
   double slack_m = 0;   ///< how far particles may travel between two sorts
   double edge_m = 0;    ///< width of a row
   double slice_m = 0;   ///< length of a slice
+  double rows_per_m = 0;
+  double slices_per_m = 0;
   std::int32_t nx = 0;  ///< slices in a row
   std::int32_t ny = 0;
   std::int32_t nz = 0;
@@ -48,10 +50,14 @@ struct RowGeometry {
   RowGeometry(const Box& domain_m, double radius_m, double slack_m, double slice_m);
 
   std::int32_t rows() const { return ny * nz; }
-  std::int32_t row_y(double y) const { return static_cast<std::int32_t>((y - domain.lower.y) / edge_m) + reach_rows; }
-  std::int32_t row_z(double z) const { return static_cast<std::int32_t>((z - domain.lower.z) / edge_m) + reach_rows; }
+  std::int32_t row_y(double y) const {
+    return static_cast<std::int32_t>((y - domain.lower.y) * rows_per_m) + reach_rows;
+  }
+  std::int32_t row_z(double z) const {
+    return static_cast<std::int32_t>((z - domain.lower.z) * rows_per_m) + reach_rows;
+  }
   std::int32_t row(double y, double z) const { return row_z(z) * ny + row_y(y); }
-  std::int32_t slice(double x) const { return static_cast<std::int32_t>((x - domain.lower.x) / slice_m); }
+  std::int32_t slice(double x) const { return static_cast<std::int32_t>((x - domain.lower.x) * slices_per_m); }
 };
 
 /// The sorted order of a set of particles. The order of particles in one slice is that of the previous order (the sort
@@ -76,7 +82,7 @@ class RowIndex {
   /// The runs that hold every particle within the kernel's radius of a point, if no particle has travelled more than
   /// travel_m since the sort (travel_m <= slack).
   Runs neighbours(const Vec3d& point_m, double travel_m) const {
-    return neighbours(point_m, row_search(geometry_.row(point_m.y, point_m.z)), travel_m);
+    return neighbours(point_m, row_search(geometry_.row_y(point_m.y), geometry_.row_z(point_m.z)), travel_m);
   }
   /// What the searches of all particles of one row have in common.
   struct Row {
@@ -84,7 +90,7 @@ class RowIndex {
     double z_m = 0;
     const std::int32_t* start = nullptr;  ///< of its slices
   };
-  Row row_search(std::int32_t row) const;
+  Row row_search(std::int32_t row_y, std::int32_t row_z) const;
   /// As above for a point that lay in `row` when the particles were sorted and may have left it since.
   Runs neighbours(const Vec3d& point_m, const Row& row, double travel_m) const;
   /// The own row and those that come after it: further along y by up to reach_rows, or at the same y and higher.
@@ -107,18 +113,21 @@ class RowIndex {
                       int threads);
   void sort_row_into_slices(std::int32_t row, std::span<const double> x, std::vector<std::int32_t>& scratch);
 
-  /// One lane for each of the rows around a point, those of forward() in the first half; lanes to spare never match.
+  /// One lane for each of the rows around a point, those of forward() first; lanes to spare never match.
   /// The distance to the row across y is y_offset + y_slope * y, where y is measured from the own row's lower side; z
   /// likewise; base is the row's offset in start_.
   struct Stencil {
-    static constexpr std::size_t half = 16;
-    static constexpr std::size_t lanes = 2 * half;
+    static constexpr std::size_t lanes = 16;
+    static_assert(rows_around <= lanes);
     std::array<float, lanes> y_offset{}, y_slope{}, z_offset{}, z_slope{};
     std::array<std::int32_t, lanes> base{};
+    float per_slice = 0;  ///< 1 / slice_m
+    float radius2 = 0;    ///< radius_m^2
   };
   static Stencil stencil(const RowGeometry& geometry);
-  /// Writes the runs of the stencil's lanes first .. first + count - 1.
-  void find_runs(const Vec3d& point_m, const Row& row, double travel_m, std::size_t first, std::span<Run> runs) const;
+  /// Writes the runs of the stencil's first N lanes.
+  template <std::size_t N>
+  std::array<Run, N> find_runs(const Vec3d& point_m, const Row& row, double travel_m) const;
 
   RowGeometry geometry_;
   Stencil stencil_;

@@ -68,15 +68,16 @@ TEST(RowIndex, StillFindsThemAfterTheAllowedTravel) {
   cloud.follow(index.order());
   std::mt19937 random(3);
   std::uniform_real_distribution<double> step(-travel / 1.8, travel / 1.8);
-  std::vector<std::int32_t> row;
+  const RowGeometry& geometry = index.geometry();
+  std::vector<RowIndex::Row> row;
   for (std::size_t i = 0; i < cloud.x.size(); ++i) {
-    row.push_back(index.geometry().row(cloud.y[i], cloud.z[i]));
+    row.push_back(index.row_search(geometry.row_y(cloud.y[i]), geometry.row_z(cloud.z[i])));
     cloud.x[i] += step(random), cloud.y[i] += step(random), cloud.z[i] += step(random);
   }
   for (std::size_t i = 0; i < 300; ++i) expect_all_found(index, cloud, cloud.at(i * 10), travel);
   // A particle that has left the row it was sorted into is looked up by that row.
   for (std::size_t i = 0; i < cloud.x.size(); i += 10) {
-    const auto runs = index.neighbours(cloud.at(i), index.row_search(row[i]), travel);
+    const auto runs = index.neighbours(cloud.at(i), row[i], travel);
     const bool own =
         static_cast<std::size_t>(runs.front().begin) <= i && i < static_cast<std::size_t>(runs.front().end);
     EXPECT_TRUE(own);

@@ -2,7 +2,7 @@
 // compressions. The exponent is 7, as in the paper.
 #pragma once
 
-#include <cmath>
+#include "solvers/lanes.h"
 
 namespace sluice::wcsph {
 
@@ -14,19 +14,32 @@ struct Tait {
   double stiffness_Pa() const { return reference_density_kg_m3 * speed_of_sound_m_s * speed_of_sound_m_s / 7.0; }
 };
 
-/// P = B [(rho / rho_0)^7 - 1]   [Pa]   Eq. (8), expanded in s = (rho - rho_0) / rho_0.
+/// P / B = (1 + s)^7 - 1 with s = (rho - rho_0) / rho_0, expanded.
+template <class Real>
+Real tait_series(const Real& s) {
+  return s * (7 + s * (21 + s * (35 + s * (35 + s * (21 + s * (7 + s))))));
+}
+
+/// P = B [(rho / rho_0)^7 - 1]   [Pa]   Eq. (8)
 template <class Real>
 Real tait_pressure(Real density_deviation, const Tait& tait) {
   const Real s = density_deviation * static_cast<Real>(1.0 / tait.reference_density_kg_m3);
-  const Real series = s * (7 + s * (21 + s * (35 + s * (35 + s * (21 + s * (7 + s))))));
-  return static_cast<Real>(tait.stiffness_Pa()) * series;
+  return static_cast<Real>(tait.stiffness_Pa()) * tait_series(s);
 }
 
-/// rho - rho_0 [kg/m^3] that gives a pressure [Pa]: Eq. (8) inverted. Pressures at or below -B have no density.
+/// rho - rho_0 [kg/m^3] that gives a pressure [Pa] of -B/2 to 16 B: Eq. (8) inverted. Newton's method from an expansion
+/// of (1 + P/B)^(1/7) that is right to second order; the steps are as many as 16 B needs in double precision. Real is
+/// double or a pack.
 template <class Real>
-Real tait_density_deviation(Real pressure_Pa, const Tait& tait) {
-  const double ratio = static_cast<double>(pressure_Pa) / tait.stiffness_Pa();
-  return static_cast<Real>(tait.reference_density_kg_m3 * std::expm1(std::log1p(ratio) / 7.0));
+Real tait_density_deviation(const Real& pressure_Pa, const Tait& tait) {
+  using Scalar = typename Lanes<Real>::Real;
+  const Real ratio = pressure_Pa * static_cast<Scalar>(1.0 / tait.stiffness_Pa());
+  Real s = ratio / (7 + 3 * ratio);
+  for (int step = 0; step < 6; ++step) {
+    const Real slope3 = (1 + s) * (1 + s) * (1 + s);
+    s -= (tait_series(s) - ratio) / (7 * (slope3 * slope3));
+  }
+  return s * static_cast<Scalar>(tait.reference_density_kg_m3);
 }
 
 /// c = sqrt(dP/drho) = c_0 (rho / rho_0)^3   [m/s]

@@ -113,9 +113,9 @@ class RunSums {
           const PairConstants<Pack>& constants)
       : fluid_(fluid), neighbours_(fluid_neighbours), walls_(walls), c_(constants) {}
 
-  void sum(const Run& targets, std::int32_t row) {
+  void sum(const Run& targets, std::int32_t row_y, std::int32_t row_z) {
     const auto end = static_cast<std::size_t>(targets.end);
-    const RowIndex::Row search = neighbours_.index.row_search(row);
+    const RowIndex::Row search = neighbours_.index.row_search(row_y, row_z);
     if (targets.begin < targets.end) list(static_cast<std::size_t>(targets.begin), search);
     for (auto i = static_cast<std::size_t>(targets.begin); i < end; ++i) {
       if (i + 1 < end) list(i + 1, search);
@@ -126,19 +126,22 @@ class RunSums {
 
  private:
   void list(std::size_t i, const RowIndex::Row& search) {
-    ForwardRuns runs = neighbours_.index.forward(fluid_.position.template at<double>(i), search, neighbours_.travel_m);
+    const Vec3d x = fluid_.position.template at<double>(i);
+    ForwardRuns runs = neighbours_.index.forward(x, search, neighbours_.travel_m);
     runs.front().begin = static_cast<std::int32_t>(i) + 1;
     packs_[i % 2].list(runs);
+    wall_packs_[i % 2].clear();
+    if (walls_.proximity.any_near(x)) {
+      wall_packs_[i % 2].list(walls_.sorted.index.neighbours(x, walls_.sorted.travel_m));
+    }
   }
 
   void sum_particle(std::size_t i) {
     const Target<Pack> target(fluid_, i, c_);
     FluidSums<Pack> sums;
     sum_fluid_pairs(target, fluid_, packs_[i % 2], c_, sums, largest_mu_);
-    const Vec3d x = fluid_.position.template at<double>(i);
-    if (walls_.proximity.any_near(x)) {
-      wall_packs_.list(walls_.sorted.index.neighbours(x, walls_.sorted.travel_m));
-      sum_wall_pairs(target, walls_.sorted.particles, wall_packs_, c_, sums, largest_mu_);
+    if (!wall_packs_[i % 2].empty()) {
+      sum_wall_pairs(target, walls_.sorted.particles, wall_packs_[i % 2], c_, sums, largest_mu_);
     }
     add_sums(fluid_, i, sums, c_);
   }
@@ -148,7 +151,7 @@ class RunSums {
   const SortedWalls<Pack>& walls_;
   const PairConstants<Pack> c_;
   std::array<PackList<Pack>, 2> packs_;
-  PackList<Pack> wall_packs_;
+  std::array<PackList<Pack>, 2> wall_packs_;
   Pack largest_mu_{0};
 };
 
@@ -225,7 +228,7 @@ StepLimits sum_fluid_rates(Particles<Pack>& fluid, const Sorted<Pack>& fluid_nei
         const auto [slab, slice] = blocks.place(colour, b);
         for (std::int32_t z = 0; z < geometry.nz; ++z) {
           const std::int32_t row = z * geometry.ny + slab;
-          sums.sum(fluid_neighbours.index.slices(row, slice, std::min(slice + blocks.length, geometry.nx)), row);
+          sums.sum(fluid_neighbours.index.slices(row, slice, std::min(slice + blocks.length, geometry.nx)), slab, z);
         }
       }
     }

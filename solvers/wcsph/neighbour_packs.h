@@ -23,8 +23,11 @@ struct PackOfRun {
 template <class Pack>
 class PackList {
  public:
+  void clear() { size_ = 0; }
+  bool empty() const { return size_ == 0; }
+
   void list(std::span<const Run> runs) {
-    size_ = 0;
+    clear();
     for (const Run& run : runs) {
       if (packs_.size() < size_ + at_once) packs_.resize(2 * packs_.size());
       const std::int32_t length = run.end - run.begin;

@@ -129,6 +129,15 @@ TEST(EquationOfState, TurnsRoundAndMatchesThePrintedForm) {
   }
 }
 
+TYPED_TEST(Terms, DensityOfAPressureTurnsTheEquationOfStateRound) {
+  const Tait tait{1000, 46.4};
+  for (const double pressure_over_B : {-0.5, 0.0, 1e-6, 1e-3, 0.1, 1.0, 4.0, 16.0}) {
+    const double exact = 1000 * std::expm1(std::log1p(pressure_over_B) / 7);
+    const double found = this->lane(tait_density_deviation(this->pack(pressure_over_B * tait.stiffness_Pa()), tait));
+    EXPECT_NEAR(found, exact, this->tolerance * std::abs(exact)) << pressure_over_B << " B";
+  }
+}
+
 TEST(EquationOfState, SpeedOfSoundIsTheSlope) {
   const Tait tait{1000, 46.4};
   EXPECT_NEAR(tait_speed_of_sound(0.0, tait), 46.4, 1e-12);

@@ -1,5 +1,7 @@
 // Sums over the fluid neighbours of wall particles, for both wall models.
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "solvers/wcsph/neighbour_packs.h"
 #include "solvers/wcsph/terms.h"
@@ -44,41 +46,68 @@ auto wall_pressure(const Target<Pack>& wall, const Particles<Pack>& fluid, const
   return weight > 0 ? std::max(Real(0), lane_sum(pressures) / weight) : Real(0);
 }
 
+/// So many wet walls are taken at a time by a thread.
+constexpr std::size_t walls_at_once = 256;
+
+/// Calls value(i, packs) for every wet wall particle i and hands the values of up to walls_at_once of them, with a pack
+/// to spare, to store(indices, values). Each particle's packs are listed before the sums of the one before it, so that
+/// the search's latency is hidden behind them.
+template <class Pack, class Value, class Store>
+void for_wet_walls(const Particles<Pack>& walls, std::span<const std::int32_t> wet,
+                   const Sorted<Pack>& fluid_neighbours, int threads, const Value& value, const Store& store) {
+  using L = Lanes<Pack>;
+  const auto blocks = static_cast<std::int64_t>((wet.size() + walls_at_once - 1) / walls_at_once);
+#pragma omp parallel num_threads(threads)
+  {
+    std::array<PackList<Pack>, 2> packs;
+    std::array<typename L::Real, walls_at_once + L::width> values{};
+#pragma omp for schedule(dynamic, 1)
+    for (std::int64_t b = 0; b < blocks; ++b) {
+      const std::size_t first = static_cast<std::size_t>(b) * walls_at_once;
+      const auto block = wet.subspan(first, std::min(walls_at_once, wet.size() - first));
+      const auto list = [&](std::size_t k) {
+        const Vec3d x = walls.position.template at<double>(static_cast<std::size_t>(block[k]));
+        packs[k % 2].list(fluid_neighbours.index.neighbours(x, fluid_neighbours.travel_m));
+      };
+      list(0);
+      for (std::size_t k = 0; k < block.size(); ++k) {
+        if (k + 1 < block.size()) list(k + 1);
+        values[k] = value(static_cast<std::size_t>(block[k]), packs[k % 2]);
+      }
+      store(block, std::span(values));
+    }
+  }
+}
+
 }  // namespace
 
 template <class Pack>
 void sum_wall_density_rates(Particles<Pack>& walls, std::span<const std::int32_t> wet,
                             const Sorted<Pack>& fluid_neighbours, const PairConstants<Pack>& c, int threads) {
-  const auto n = static_cast<std::int64_t>(wet.size());
-#pragma omp parallel num_threads(threads)
-  {
-    PackList<Pack> packs;
-#pragma omp for schedule(dynamic, 256)
-    for (std::int64_t w = 0; w < n; ++w) {
-      const auto i = static_cast<std::size_t>(wet[static_cast<std::size_t>(w)]);
-      packs.list(fluid_neighbours.index.neighbours(walls.position.template at<double>(i), fluid_neighbours.travel_m));
-      walls.density_rate[i] =
-          c.continuity_factor * wall_continuity(Target<Pack>(walls, i, c), fluid_neighbours.particles, packs, c);
-    }
-  }
+  using Real = typename Lanes<Pack>::Real;
+  const auto rate = [&](std::size_t i, const PackList<Pack>& packs) {
+    return c.continuity_factor * wall_continuity(Target<Pack>(walls, i, c), fluid_neighbours.particles, packs, c);
+  };
+  const auto store = [&](std::span<const std::int32_t> block, std::span<const Real> rates) {
+    for (std::size_t k = 0; k < block.size(); ++k) walls.density_rate[static_cast<std::size_t>(block[k])] = rates[k];
+  };
+  for_wet_walls(walls, wet, fluid_neighbours, threads, rate, store);
 }
 
 template <class Pack>
 void extrapolate_wall_pressures(Particles<Pack>& walls, std::span<const std::int32_t> wet,
                                 const Sorted<Pack>& fluid_neighbours, const PairConstants<Pack>& c, int threads) {
-  using Real = typename Lanes<Pack>::Real;
-  const auto n = static_cast<std::int64_t>(wet.size());
-#pragma omp parallel num_threads(threads)
-  {
-    PackList<Pack> packs;
-#pragma omp for schedule(dynamic, 256)
-    for (std::int64_t w = 0; w < n; ++w) {
-      const auto i = static_cast<std::size_t>(wet[static_cast<std::size_t>(w)]);
-      packs.list(fluid_neighbours.index.neighbours(walls.position.template at<double>(i), fluid_neighbours.travel_m));
-      const Real pressure = wall_pressure(Target<Pack>(walls, i, c), fluid_neighbours.particles, packs, c);
-      walls.density[i] = pressure > 0 ? tait_density_deviation(pressure, c.tait) : Real(0);
-    }
-  }
+  using L = Lanes<Pack>;
+  using Real = typename L::Real;
+  const auto pressure = [&](std::size_t i, const PackList<Pack>& packs) {
+    return wall_pressure(Target<Pack>(walls, i, c), fluid_neighbours.particles, packs, c);
+  };
+  const auto store = [&](std::span<const std::int32_t> block, std::span<Real> values) {
+    for (std::size_t k = 0; k < block.size(); k += L::width)
+      L::store(tait_density_deviation(L::load(&values[k]), c.tait), &values[k]);
+    for (std::size_t k = 0; k < block.size(); ++k) walls.density[static_cast<std::size_t>(block[k])] = values[k];
+  };
+  for_wet_walls(walls, wet, fluid_neighbours, threads, pressure, store);
 }
 
 template void sum_wall_density_rates(Particles<double>&, std::span<const std::int32_t>, const Sorted<double>&,

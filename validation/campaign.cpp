@@ -127,14 +127,6 @@ std::string text_of(const json& manifest, const char* key) {
   return manifest.contains(key) && manifest[key].is_string() ? manifest[key].get<std::string>() : "";
 }
 
-/// Whether a run says something about the cost of another on this machine.
-bool comparable(const json& manifest, const RunSettings& s) {
-  return text_of(manifest, "status") == "finished" && text_of(manifest, "solver") == s.solver &&
-         text_of(manifest, "walls") == s.walls && number_of(manifest, "threads") == s.threads &&
-         text_of(manifest, "cpu") == cpu_model() && number_of(manifest, "wall_time_s") > 0 &&
-         number_of(manifest, "steps") > 0 && number_of(manifest, "l0_m") > 0;
-}
-
 }  // namespace
 
 Campaign load_campaign(const fs::path& file, const fs::path& out, int threads) {
@@ -180,30 +172,21 @@ std::string to_string(CampaignState state) {
   return "";
 }
 
-CampaignEstimate estimate(const Campaign& campaign, const CampaignRun& run) {
+CampaignEstimate estimate(const Campaign& campaign, const CampaignRun& run, const std::vector<RunCost>& costs) {
   CampaignEstimate e;
-  e.plan = plan_run(campaign.case_of(run), run.settings);
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const CampaignRun& other : campaign.runs) {
-    const json manifest = manifest_of(other.directory);
-    if (!comparable(manifest, run.settings)) continue;
-    const double l0_m = number_of(manifest, "l0_m");
-    const double distance = std::abs(std::log(l0_m / run.settings.l0_m));
-    if (distance >= nearest) continue;
-    nearest = distance;
-    e.measured = true;
-    // Steps per second of flow go with 1 / l0 in both methods, particles are counted.
-    const double steps = number_of(manifest, "steps") * l0_m / run.settings.l0_m * run.settings.t_end_s /
-                         std::max(number_of(manifest, "time_s"), 1e-9);
-    const double fluid = std::max(1.0, number_of(manifest.value("particles", json::object()), "fluid"));
-    const double work = static_cast<double>(e.plan.particles.fluid) * steps / (fluid * number_of(manifest, "steps"));
-    e.plan.steps = steps;
-    e.plan.dt_s = run.settings.t_end_s / steps;
-    e.plan.wall_time_s = number_of(manifest, "wall_time_s") * work;
-  }
+  const Case& c = campaign.case_of(run);
+  e.plan = plan_run(c, run.settings);
+  reckon_by(costs, c, run.settings, e.plan);
   if (state_of(campaign, run) == CampaignState::resumable)
     e.done_share = std::min(1.0, number_of(manifest_of(run.directory), "time_s") / run.settings.t_end_s);
   return e;
+}
+
+std::vector<RunCost> known_costs(const Campaign& campaign, const std::vector<fs::path>& others) {
+  std::vector<fs::path> directories;
+  for (const CampaignRun& run : campaign.runs) directories.push_back(run.directory);
+  directories.insert(directories.end(), others.begin(), others.end());
+  return run_costs(directories);
 }
 
 }  // namespace sluice

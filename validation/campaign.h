@@ -21,6 +21,7 @@
 
 #include "validation/case.h"
 #include "validation/plan.h"
+#include "validation/run_cost.h"
 #include "validation/run_settings.h"
 #include "validation/slurm.h"
 
@@ -64,12 +65,13 @@ std::string to_string(CampaignState state);
 /// What a run will cost.
 struct CampaignEstimate {
   Plan plan;
-  bool measured = false;  ///< from a finished run of the same kind on this machine, not from this program's constants
   double done_share = 0;  ///< of a run that can be resumed
   double remaining_s() const { return (1 - done_share) * plan.wall_time_s; }
 };
-/// Scales the wall time of the finished run that is nearest in particle distance among those of the same solver, walls,
-/// number of threads and processor; where there is none, plan_run() alone.
-CampaignEstimate estimate(const Campaign& campaign, const CampaignRun& run);
+/// By what runs have cost here (run_cost.h), or else by plan_run() alone.
+CampaignEstimate estimate(const Campaign& campaign, const CampaignRun& run, const std::vector<RunCost>& costs);
+
+/// Of the campaign's own runs that are finished, and of others (as runs_near() finds them).
+std::vector<RunCost> known_costs(const Campaign& campaign, const std::vector<std::filesystem::path>& others);
 
 }  // namespace sluice

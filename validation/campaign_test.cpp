@@ -51,7 +51,7 @@ class CampaignTest : public testing::Test {
             {"output_rate_Hz", s.output_rate_Hz},
             {"parameters", s.parameters},
             {"threads", s.threads},
-            {"cpu", cpu_model()},
+            {"machine", machine_fingerprint()},
             {"status", status}};
   }
   static void put(const CampaignRun& run, const nlohmann::json& manifest) {
@@ -121,7 +121,7 @@ TEST_F(CampaignTest, AManifestOfAnyShapeHasAState) {
     fs::create_directories(c.runs[0].directory);
     std::ofstream(c.runs[0].directory / "run.json") << text;
     EXPECT_NE(state_of(c, c.runs[0]), CampaignState::finished) << text;
-    EXPECT_FALSE(estimate(c, c.runs[1]).measured) << text;
+    EXPECT_FALSE(estimate(c, c.runs[1], known_costs(c, {})).plan.measured) << text;
   }
 }
 
@@ -145,23 +145,48 @@ TEST_F(CampaignTest, TimesAreScaledFromTheNearestFinishedRunOfItsKind) {
   const Campaign c = load(two_groups);
   const CampaignRun& coarse = c.runs[0];
   const CampaignRun& fine = c.runs[2];
-  EXPECT_FALSE(estimate(c, fine).measured);
+  EXPECT_FALSE(estimate(c, fine, known_costs(c, {})).plan.measured);
   auto done = manifest(c, coarse, "finished");
   done["wall_time_s"] = 10.0;
   done["steps"] = 1000;
   done["time_s"] = 2.0;
   done["particles"] = {{"fluid", 5000}, {"solid", 9000}};
   put(coarse, done);
-  const CampaignEstimate e = estimate(c, fine);
-  EXPECT_TRUE(e.measured);
+  const CampaignEstimate e = estimate(c, fine, known_costs(c, {}));
+  EXPECT_TRUE(e.plan.measured);
   EXPECT_NEAR(e.plan.steps, 1250, 1e-6);
   EXPECT_NEAR(e.plan.wall_time_s, 10.0 * 1.25 * static_cast<double>(e.plan.particles.fluid) / 5000, 1e-6);
-  EXPECT_FALSE(estimate(c, c.runs[4]).measured) << "other walls";
+  EXPECT_FALSE(estimate(c, c.runs[4], known_costs(c, {})).plan.measured) << "other walls";
   auto part = manifest(c, fine, "interrupted");
   part["time_s"] = 1.5;
   put(fine, part);
   std::ofstream(fine.directory / checkpoint_file) << "something";
-  EXPECT_NEAR(estimate(c, fine).remaining_s(), 0.25 * e.plan.wall_time_s, 1e-6);
+  EXPECT_NEAR(estimate(c, fine, known_costs(c, {})).remaining_s(), 0.25 * e.plan.wall_time_s, 1e-6);
+}
+
+TEST_F(CampaignTest, ARunBesideTheCampaignTellsTheRateOfItsKind) {
+  const Campaign c = load(two_groups);
+  const CampaignRun& fine = c.runs[2];
+  const fs::path beside = directory / "elsewhere" / "older";
+  auto done = manifest(c, fine, "finished");
+  done["wall_time_s"] = 10.0;
+  done["steps"] = 1000;
+  done["time_s"] = 2.0;
+  done["particles"] = {{"fluid", 5000}, {"solid", 9000}};
+  const auto plan_beside = [&] {
+    fs::create_directories(beside);
+    std::ofstream(beside / "run.json") << done;
+    const auto others = runs_near(directory / "runs");
+    EXPECT_EQ(others, (std::vector<fs::path>{beside}));
+    return estimate(c, fine, known_costs(c, others)).plan;
+  };
+  const Plan constants = plan_run(c.case_of(fine), fine.settings);
+  const auto fluid = static_cast<double>(constants.particles.fluid);
+  EXPECT_NEAR(plan_beside().wall_time_s, fluid * 1000 * fine.settings.t_end_s / 2.0 / (5000 * 1000 / 10.0), 1e-6);
+  done["case_hash"] = "another";  // its rate counts, its time step does not
+  EXPECT_NEAR(plan_beside().wall_time_s, fluid * constants.steps / (5000 * 1000 / 10.0), 1e-6);
+  done["machine"] = "another";
+  EXPECT_FALSE(plan_beside().measured);
 }
 
 TEST_F(CampaignTest, ThoseOfTheProjectCanBeRead) {

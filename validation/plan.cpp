@@ -105,9 +105,10 @@ std::string describe(const Plan& plan, std::optional<std::int64_t> available_byt
       available_bytes ? human_bytes(static_cast<double>(*available_bytes)) : std::string("unknown");
   return fmt::format(
       "particles: {} fluid, {} solid; memory: about {} (available: {})\n"
-      "expected: {:.0f} steps of {:.3g} s, about {}\n",
+      "expected: {:.0f} steps of {:.3g} s, about {} ({})\n",
       plan.particles.fluid, plan.particles.solid, human_bytes(static_cast<double>(plan.memory_bytes)), available,
-      plan.steps, plan.dt_s, human_time(plan.wall_time_s));
+      plan.steps, plan.dt_s, human_time(plan.wall_time_s),
+      plan.measured ? "by a run of its kind on this machine" : "no run of its kind on this machine yet");
 }
 
 std::string human_bytes(double bytes) {

@@ -17,6 +17,7 @@ struct Plan {
   double dt_s = 0;
   double steps = 0;
   double wall_time_s = 0;
+  bool measured = false;  ///< the time: by a run of the same kind on this machine, not by this program's constants
 };
 
 /// Throws std::invalid_argument when the geometry cannot be built at this particle distance.

@@ -10,6 +10,7 @@
 #include "validation/interrupt.h"
 #include "validation/manifest.h"
 #include "validation/plan.h"
+#include "validation/run_cost.h"
 #include "validation/run_lock.h"
 #include "validation/run_loop.h"
 #include "validation/run_manifest.h"
@@ -101,7 +102,8 @@ void refuse_changed_case(const Case& c, const RunHeader& header) {
 }  // namespace
 
 RunOutcome run_case(const Case& c, const RunSettings& settings, const RunOptions& options) {
-  const Plan plan = plan_run(c, settings);
+  Plan plan = plan_run(c, settings);
+  reckon_by(run_costs(runs_near(options.out)), c, settings, plan);
   const auto available = options.available_memory_bytes ? options.available_memory_bytes : available_memory_bytes();
   refuse_if_too_large(c, settings, plan, available);
   const RunLock lock = prepare_run_directory(options.out, options.force);

@@ -15,6 +15,7 @@
 #include "validation/cli/usage_error.h"
 #include "validation/plan.h"
 #include "validation/run.h"
+#include "validation/run_cost.h"
 
 namespace sluice::cli {
 namespace {
@@ -42,32 +43,32 @@ struct Result {
   std::string error;
 };
 
-double remaining_s(const Campaign& campaign, std::size_t from, bool force) {
+double remaining_s(const Campaign& campaign, std::size_t from, bool force, const std::vector<RunCost>& costs) {
   double sum = 0;
   for (std::size_t i = from; i < campaign.runs.size(); ++i)
     if (force || state_of(campaign, campaign.runs[i]) != CampaignState::finished)
-      sum += estimate(campaign, campaign.runs[i]).remaining_s();
+      sum += estimate(campaign, campaign.runs[i], costs).remaining_s();
   return sum;
 }
 
-void print_plan(const Campaign& campaign, bool force) {
+void print_plan(const Campaign& campaign, bool force, const std::vector<RunCost>& costs) {
   std::size_t to_do = 0;
   std::int64_t most_bytes = 0;
   for (const CampaignRun& run : campaign.runs) {
     const CampaignState state = state_of(campaign, run);
-    const CampaignEstimate e = estimate(campaign, run);
+    const CampaignEstimate e = estimate(campaign, run, costs);
     fmt::print("{:10} {:>9} fluid {:>9} solid {:>8} {:>14}{}  {}\n", to_string(state), e.plan.particles.fluid,
                e.plan.particles.solid, human_bytes(static_cast<double>(e.plan.memory_bytes)),
-               state == CampaignState::finished ? "" : human_time(e.remaining_s()), e.measured ? " " : "*",
+               state == CampaignState::finished ? "" : human_time(e.remaining_s()), e.plan.measured ? " " : "*",
                run.directory.filename().string());
     to_do += force || state != CampaignState::finished;
     most_bytes = std::max(most_bytes, e.plan.memory_bytes);
   }
   fmt::print(
-      "{}: {} runs, {} to compute, at most {} of memory, about {} (*: from this program's constants, not measured "
-      "here)\n",
+      "{}: {} runs, {} to compute, at most {} of memory, about {} (*: from this program's constants, no run of the "
+      "kind on this machine yet)\n",
       campaign.name, campaign.runs.size(), to_do, human_bytes(static_cast<double>(most_bytes)),
-      human_time(remaining_s(campaign, 0, force)));
+      human_time(remaining_s(campaign, 0, force, costs)));
   std::fflush(stdout);
 }
 
@@ -91,7 +92,8 @@ RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Argum
 }
 
 /// A run that fails is told and does not stop the others. Returns the code of an interruption, or 0.
-int compute_all(const Campaign& campaign, const Arguments& arguments, std::vector<Result>& results) {
+int compute_all(const Campaign& campaign, const Arguments& arguments, const std::vector<fs::path>& others,
+                std::vector<Result>& results) {
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
     const CampaignRun& run = campaign.runs[i];
     if (!arguments.force && state_of(campaign, run) == CampaignState::finished) {
@@ -99,7 +101,8 @@ int compute_all(const Campaign& campaign, const Arguments& arguments, std::vecto
       continue;
     }
     fmt::print(stderr, "[{}/{}] {}; {} left of the campaign\n", i + 1, campaign.runs.size(),
-               run.directory.filename().string(), human_time(remaining_s(campaign, i, arguments.force)));
+               run.directory.filename().string(),
+               human_time(remaining_s(campaign, i, arguments.force, known_costs(campaign, others))));
     RunOutcome outcome;
     try {
       outcome = compute(campaign, run, arguments);
@@ -163,20 +166,21 @@ int compute_only(const Campaign& campaign, const Arguments& arguments) {
     fmt::print("{}: finished already\n", arguments.only);
     return 0;
   }
-  const double share_before = estimate(campaign, *run).done_share;
+  const double share_before = estimate(campaign, *run, {}).done_share;
   const RunOutcome outcome = compute(campaign, *run, arguments);
   if (outcome.status == "failed") throw std::runtime_error(fmt::format("{}: {}", arguments.only, outcome.error));
   // Who puts an interrupted run back into a queue must not do so for ever.
-  if (outcome.status == "interrupted" && estimate(campaign, *run).done_share <= share_before)
+  if (outcome.status == "interrupted" && estimate(campaign, *run, {}).done_share <= share_before)
     throw std::runtime_error(
         fmt::format("{}: interrupted before it had made a single step (give it more time)", arguments.only));
   fmt::print("{}: {}\n", arguments.only, outcome.status);
   return outcome.exit_code;
 }
 
-int compute_and_report(const Campaign& campaign, const Arguments& arguments, const fs::path& out) {
+int compute_and_report(const Campaign& campaign, const Arguments& arguments, const fs::path& out,
+                       const std::vector<fs::path>& others) {
   std::vector<Result> results;
-  const int interrupted = compute_all(campaign, arguments, results);
+  const int interrupted = compute_all(campaign, arguments, others, results);
   const bool all_well = print_results(campaign, results);
   if (interrupted != 0) {
     fmt::print(stderr, "interrupted; the same command goes on\n");
@@ -208,9 +212,10 @@ int run(const Arguments& arguments) {
   if (arguments.report_only) return report_only(campaign, out);
   if (!arguments.only.empty()) return compute_only(campaign, arguments);
   if (slurm && arguments.dry_run) return run_on_slurm(campaign, arguments, out);  // prints nothing but the scripts
-  print_plan(campaign, arguments.force);
+  const std::vector<fs::path> others = runs_near(out);
+  print_plan(campaign, arguments.force, known_costs(campaign, others));
   if (slurm) return run_on_slurm(campaign, arguments, out);
-  return arguments.dry_run ? 0 : compute_and_report(campaign, arguments, out);
+  return arguments.dry_run ? 0 : compute_and_report(campaign, arguments, out, others);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "validation/cli/commands.h"
 #include "validation/cli/usage_error.h"
 #include "validation/plan.h"
+#include "validation/run_cost.h"
 #include "validation/solver_factory.h"
 
 namespace sluice::cli {
@@ -60,7 +61,8 @@ int run(const CLI::App& command, Arguments& arguments) {
   options.checkpoint_every_s = arguments.checkpoint_every_s;
   options.log_steps = arguments.log_steps;
   if (arguments.dry_run) {
-    const Plan plan = plan_run(c, settings);
+    Plan plan = plan_run(c, settings);
+    reckon_by(run_costs(runs_near(options.out)), c, settings, plan);
     fmt::print("{}into {}\n", describe(plan, available_memory_bytes()), options.out.string());
     refuse_if_too_large(c, settings, plan, available_memory_bytes());
     return 0;

@@ -1,0 +1,100 @@
+#include "validation/run_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
+
+#include "validation/manifest.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t most_directories = 1000;
+constexpr int most_entries = 10'000;  // of one directory: neighbours may be anything
+
+std::string all_but_alpha(json parameters) {
+  if (parameters.is_object()) parameters.erase("alpha");
+  return parameters.dump();
+}
+
+/// Throws json::exception where a key is missing or is something else.
+std::optional<RunCost> cost_of(const json& m) {
+  if (m.at("status") != "finished" || m.at("machine") != machine_fingerprint()) return std::nullopt;
+  RunCost cost{
+      m.at("case_hash"), m.at("solver"), m.at("walls"), all_but_alpha(m.at("parameters")), m.at("threads"),
+      m.at("l0_m"),      m.at("time_s"), m.at("steps"), m.at("particles").at("fluid"),     m.at("wall_time_s")};
+  const bool makes_sense = cost.l0_m > 0 && cost.time_s > 0 && cost.steps > 0 && cost.fluid > 0 && cost.wall_time_s > 0;
+  return makes_sense ? std::optional(cost) : std::nullopt;
+}
+
+/// In the order of their names; none where there is no such directory.
+std::vector<fs::path> subdirectories(const fs::path& directory) {
+  std::vector<fs::path> found;
+  std::error_code none;
+  int entries = 0;
+  for (fs::directory_iterator it(directory, none), end; !none && it != end && entries < most_entries; ++entries) {
+    if (std::error_code broken; it->is_directory(broken)) found.push_back(it->path());
+    it.increment(none);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+std::vector<RunCost> run_costs(const std::vector<fs::path>& directories) {
+  std::vector<RunCost> costs;
+  for (const fs::path& directory : directories) {
+    std::ifstream in(directory / "run.json");
+    if (!in) continue;
+    try {
+      if (const auto cost = cost_of(json::parse(in))) costs.push_back(*cost);
+    } catch (const json::exception&) {
+      continue;  // no manifest of ours: nothing to reckon by
+    }
+  }
+  return costs;
+}
+
+std::vector<fs::path> runs_near(const fs::path& directory) {
+  std::vector<fs::path> found;
+  const auto take = [&](const fs::path& candidate) {
+    std::error_code none;
+    if (found.size() < most_directories && fs::exists(candidate / "run.json", none)) found.push_back(candidate);
+  };
+  const fs::path parent = directory.parent_path();
+  for (const fs::path& neighbour : subdirectories(parent.empty() ? "." : parent)) {
+    take(neighbour);
+    for (const fs::path& below : subdirectories(neighbour)) take(below);
+  }
+  return found;
+}
+
+void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettings& s, Plan& plan) {
+  const RunCost* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const RunCost& cost : costs) {
+    if (cost.solver != s.solver || cost.walls != s.walls || cost.threads != s.threads) continue;
+    const double apart = std::abs(std::log(cost.l0_m / s.l0_m)) + (cost.case_hash == c.hash ? 0.0 : 10.0);
+    if (apart >= least) continue;
+    least = apart;
+    nearest = &cost;
+  }
+  if (nearest == nullptr) return;
+  if (nearest->case_hash == c.hash && nearest->parameters == all_but_alpha(s.parameters)) {
+    plan.steps = nearest->steps * (nearest->l0_m / s.l0_m) * (s.t_end_s / nearest->time_s);
+    plan.dt_s = s.t_end_s / plan.steps;
+  }
+  const double particle_steps_per_s = nearest->fluid * nearest->steps / nearest->wall_time_s;
+  plan.wall_time_s = static_cast<double>(plan.particles.fluid) * plan.steps / particle_steps_per_s;
+  plan.measured = true;
+}
+
+}  // namespace sluice

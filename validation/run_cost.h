@@ -1,0 +1,42 @@
+// What runs have cost on this machine, as their manifests tell it, and what another one will cost by that.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "validation/case.h"
+#include "validation/plan.h"
+#include "validation/run_settings.h"
+
+namespace sluice {
+
+/// A finished run on this machine.
+struct RunCost {
+  std::string case_hash;
+  std::string solver;
+  std::string walls;
+  std::string parameters;  ///< all but alpha, as JSON: alpha hardly moves the time step
+  int threads = 0;
+  double l0_m = 0;
+  double time_s = 0;  ///< simulated
+  double steps = 0;
+  double fluid = 0;  ///< particles
+  double wall_time_s = 0;
+};
+
+/// Of the finished runs of this machine in these directories. What is no run, cannot be read, or was not computed here
+/// is passed over.
+std::vector<RunCost> run_costs(const std::vector<std::filesystem::path>& directories);
+
+/// Directories with a manifest beside `directory` and one level below its neighbours, in the order of their names; at
+/// most 1000. `directory` need not exist.
+std::vector<std::filesystem::path> runs_near(const std::filesystem::path& directory);
+
+/// Reckons a plan's time by the particle-steps a second of the nearest of `costs` in particle distance, among those of
+/// the same solver, walls and number of threads, one of the same case before others. Where that was the same flow
+/// (case and parameters, alpha aside), its time step counts too: steps a second of flow go with 1 / l0. Without such a
+/// run the plan stays as it is.
+void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettings& settings, Plan& plan);
+
+}  // namespace sluice

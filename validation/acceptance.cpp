@@ -135,6 +135,7 @@ std::optional<double> sensor_metric(std::string_view metric, const Comparison& c
 
 std::optional<double> run_metric(std::string_view metric, const RunRecord& run) {
   if (metric == "lost_through_walls") return run.number("lost.through_walls");
+  if (metric == "number_density_max_over_n0") return run.number("facts.number_density_max_over_n0");
   if (metric == "fluid_volume_deviation") return run.number("fluid_volume.deviation");
   if (metric != "lost_over_top_share")
     throw std::invalid_argument(fmt::format("`{}` is not a metric of a whole run", metric));
@@ -173,6 +174,7 @@ std::string acceptance_value_text(const AcceptanceRow& row, double value) {
   const std::string_view unit = metric_of(row.metric).unit;
   if (unit == "1") return fmt::format("{:+.1f} %", 100 * value);
   if (unit == "s") return fmt::format("{:+.0f} ms", 1000 * value);
+  if (unit == "n0") return fmt::format("{:.2f} n0", value);
   return fmt::format("{:.0f}", value);
 }
 

@@ -183,6 +183,16 @@ TEST_F(AcceptanceTest, WholeRunQuantitiesComeFromTheManifest) {
   EXPECT_EQ(check(R"(metric = "lost_through_walls", upper = 0)", leaky).verdict, AcceptanceVerdict::fail);
 }
 
+TEST_F(AcceptanceTest, TheDensestParticleIsHeldAgainstItsBound) {
+  const std::string row = R"(metric = "number_density_max_over_n0", upper = 1.4)";
+  EXPECT_EQ(check(row).verdict, AcceptanceVerdict::missing) << "a solver that does not tell it";
+  const auto with = [](double n) { return nlohmann::json{{"facts", {{"number_density_max_over_n0", n}}}}; };
+  EXPECT_EQ(check(row, with(1.35)).verdict, AcceptanceVerdict::pass);
+  const AcceptanceCheck crowded = check(row, with(1.8));
+  EXPECT_EQ(crowded.verdict, AcceptanceVerdict::fail);
+  EXPECT_EQ(acceptance_value_text(crowded.row, *crowded.value), "1.80 n0");
+}
+
 TEST_F(AcceptanceTest, RowsSpeakOnlyOfTheirRuns) {
   const std::string row = R"(metric = "lost_through_walls", upper = 0)";
   EXPECT_EQ(check(row, {{"walls", "dynamic"}}).verdict, AcceptanceVerdict::not_applicable);

@@ -79,6 +79,7 @@ const std::vector<AcceptanceMetric>& acceptance_metrics() {
       {"share_inside_band", "1", true, "share of the window's time inside the measured band"},
       {"lost_through_walls", "particles", false, "fluid particles that passed a wall"},
       {"lost_over_top_share", "1", false, "fluid particles that left over the open top / all at the start"},
+      {"number_density_max_over_n0", "n0", false, "MPS: number density of the densest particle of the whole run"},
       {"fluid_volume_deviation", "1", false, "(volume on the lattice - nominal) / nominal, at the start"},
   };
   return metrics;

@@ -120,7 +120,7 @@ struct AcceptanceRow {
 /// Names of the metrics that acceptance rows can use, with what each needs.
 struct AcceptanceMetric {
   std::string_view name;
-  std::string_view unit;  ///< "s", "1" (relative), "particles"
+  std::string_view unit;  ///< "s", "1" (relative), "particles", "n0"
   bool needs_sensor = true;
   std::string_view meaning;
 };

@@ -77,6 +77,7 @@ std::map<std::string, double> complete_mps(const Case&, std::map<std::string, do
   p.try_emplace("viscosity_m2_s", defaults.viscosity_m2_s);
   p.try_emplace("kappa_c_m_s2_kg", defaults.kappa_c_m_s2_kg);
   p.try_emplace("kappa_r", defaults.kappa_r);
+  p.try_emplace("tolerated_crowding", defaults.tolerated_crowding);
   p.try_emplace("courant", defaults.courant);
   p.try_emplace("greatest_speed_m_s", defaults.greatest_speed_m_s);
   p.try_emplace("collision_over_distance", defaults.collision_over_distance);
@@ -100,6 +101,7 @@ mps::Parameters mps_parameters(const RunSettings& settings) {
   p.viscosity_m2_s = given.at("viscosity_m2_s");
   p.kappa_c_m_s2_kg = given.at("kappa_c_m_s2_kg");
   p.kappa_r = given.at("kappa_r");
+  p.tolerated_crowding = given.at("tolerated_crowding");
   p.courant = given.at("courant");
   p.greatest_speed_m_s = given.at("greatest_speed_m_s");
   p.collision_over_distance = given.at("collision_over_distance");
@@ -145,9 +147,9 @@ const std::vector<SolverEntry>& entries() {
        wcsph_cost},
       {"mps",
        {"dummies"},
-       {"effective_radius_over_distance", "viscosity_m2_s", "kappa_c_m_s2_kg", "kappa_r", "courant",
-        "greatest_speed_m_s", "collision_over_distance", "restitution", "wall_contact_over_distance", "tolerance",
-        "most_iterations", "multigrid"},
+       {"effective_radius_over_distance", "viscosity_m2_s", "kappa_c_m_s2_kg", "kappa_r", "tolerated_crowding",
+        "courant", "greatest_speed_m_s", "collision_over_distance", "restitution", "wall_contact_over_distance",
+        "tolerance", "most_iterations", "multigrid"},
        complete_mps,
        make_mps,
        mps_cost}};

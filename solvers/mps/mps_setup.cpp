@@ -22,6 +22,8 @@ Parameters checked(const Parameters& p) {
   require(p.viscosity_m2_s >= 0, "viscosity_m2_s", p.viscosity_m2_s, "zero or more");
   require(p.kappa_c_m_s2_kg >= 0, "kappa_c_m_s2_kg", p.kappa_c_m_s2_kg, "zero or more");
   require(p.kappa_r > 0 && p.kappa_r <= 1, "kappa_r", p.kappa_r, "in (0, 1]");
+  require(p.tolerated_crowding >= 0, "tolerated_crowding", p.tolerated_crowding,
+          "zero or more (100 leaves kappa_r as it is)");
   require(p.courant > 0 && p.courant <= 1, "courant", p.courant, "in (0, 1]");
   require(p.greatest_speed_m_s > 0, "greatest_speed_m_s", p.greatest_speed_m_s, "positive");
   require(p.collision_over_distance >= 0 && p.collision_over_distance <= 1, "collision_over_distance",

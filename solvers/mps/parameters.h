@@ -13,6 +13,7 @@ struct Parameters {
   double viscosity_m2_s = 1e-6;                 ///< nu
   double kappa_c_m_s2_kg = 1e-8;                ///< artificial compressibility, Eq. (23)
   double kappa_r = 0.01;                        ///< relaxation of the source term, Eq. (23)
+  double tolerated_crowding = 0.15;             ///< of n_i / n0 above 1, before the source gets stronger (relaxation())
   double courant = 0.2;
   double greatest_speed_m_s = 5;        ///< |u|max of the time step, Eq. (27)
   double least_density_ratio = 0.98;    ///< beta_1: a surface particle has n_i < beta_1 n0, Eq. (28)

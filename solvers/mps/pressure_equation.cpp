@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "solvers/mps/terms.h"
+
 namespace sluice::mps {
 namespace {
 
@@ -37,7 +39,8 @@ void PressureEquation<Pack>::assemble(const Particles<Pack>& p, const NeighbourL
   const double scale = c_.lattice.lambda_m2 * c_.lattice.number_density / 6;
   const double rho_per_dt2 = parameters.density_kg_m3 / (c_.dt_s * c_.dt_s);
   const double compressibility = rho_per_dt2 * parameters.kappa_c_m_s2_kg * scale;
-  const double source = parameters.kappa_r * rho_per_dt2 * scale;
+  const double source = rho_per_dt2 * scale;
+  const double kappa_r = parameters.kappa_r;
   // Near neighbours make up for those left out.
   const auto near_factor = static_cast<Real>(1 / c_.lattice.near_share);
   const double n0 = c_.lattice.number_density;
@@ -53,7 +56,8 @@ void PressureEquation<Pack>::assemble(const Particles<Pack>& p, const NeighbourL
     const bool has_row = !is_at_surface(p, c_, i, list.count(i));
     far_[i] = list.far_with_pressure(i);
     has_row_[i] = has_row ? 1 : 0;
-    right_side_[i] = has_row ? source * (static_cast<double>(p.number_density[i]) - n0) / n0 : 0.0;
+    const double crowding = (static_cast<double>(p.number_density[i]) - n0) / n0;
+    right_side_[i] = has_row ? source * relaxation(crowding, kappa_r, parameters.tolerated_crowding) * crowding : 0.0;
     const auto c = static_cast<Real>(compressibility);
     diagonal_[i] = c + list.near_weight(i) + list.far_weight(i);
     near_diagonal_[i] = c + near_factor * list.near_weight(i);

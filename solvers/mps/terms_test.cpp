@@ -47,6 +47,13 @@ TYPED_TEST(MpsTerms, CorrectionTermIsTheDyadOfTheDirection) {
   EXPECT_EQ(first_lane(m.zz), 0);
 }
 
+TYPED_TEST(MpsTerms, RelaxationGrowsWithTheCrowdingBeyondTheToleratedOne) {
+  using R = TypeParam;
+  for (const float below : {-0.5F, 0.0F, 0.15F})
+    EXPECT_NEAR(first_lane(relaxation(R(below), R(0.01F), R(0.15F))), 0.01, 1e-8);
+  EXPECT_NEAR(first_lane(relaxation(R(0.4F), R(0.01F), R(0.15F))), 0.26, 1e-7);
+}
+
 TYPED_TEST(MpsTerms, CollisionTurnsAnApproachRoundWithItsRestitution) {
   using R = TypeParam;
   const Vec3<R> r{R(0.1F), R(0), R(0)};

@@ -102,8 +102,7 @@ void refuse_changed_case(const Case& c, const RunHeader& header) {
 }  // namespace
 
 RunOutcome run_case(const Case& c, const RunSettings& settings, const RunOptions& options) {
-  Plan plan = plan_run(c, settings);
-  reckon_by(run_costs(runs_near(options.out)), c, settings, plan);
+  const Plan plan = plan_near(c, settings, options.out);
   const auto available = options.available_memory_bytes ? options.available_memory_bytes : available_memory_bytes();
   refuse_if_too_large(c, settings, plan, available);
   const RunLock lock = prepare_run_directory(options.out, options.force);

@@ -25,8 +25,8 @@ std::string all_but_alpha(json parameters) {
 }
 
 /// Throws json::exception where a key is missing or is something else.
-std::optional<RunCost> cost_of(const json& m) {
-  if (m.at("status") != "finished" || m.at("machine") != machine_fingerprint()) return std::nullopt;
+std::optional<RunCost> cost_of(const json& m, const std::string& machine) {
+  if (m.at("status") != "finished" || m.at("machine") != machine) return std::nullopt;
   RunCost cost{
       m.at("case_hash"), m.at("solver"), m.at("walls"), all_but_alpha(m.at("parameters")), m.at("threads"),
       m.at("l0_m"),      m.at("time_s"), m.at("steps"), m.at("particles").at("fluid"),     m.at("wall_time_s")};
@@ -51,11 +51,12 @@ std::vector<fs::path> subdirectories(const fs::path& directory) {
 
 std::vector<RunCost> run_costs(const std::vector<fs::path>& directories) {
   std::vector<RunCost> costs;
+  const std::string machine = machine_fingerprint();
   for (const fs::path& directory : directories) {
     std::ifstream in(directory / "run.json");
     if (!in) continue;
     try {
-      if (const auto cost = cost_of(json::parse(in))) costs.push_back(*cost);
+      if (const auto cost = cost_of(json::parse(in), machine)) costs.push_back(*cost);
     } catch (const json::exception&) {
       continue;  // no manifest of ours: nothing to reckon by
     }
@@ -95,6 +96,12 @@ void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettin
   const double particle_steps_per_s = nearest->fluid * nearest->steps / nearest->wall_time_s;
   plan.wall_time_s = static_cast<double>(plan.particles.fluid) * plan.steps / particle_steps_per_s;
   plan.measured = true;
+}
+
+Plan plan_near(const Case& c, const RunSettings& settings, const fs::path& directory) {
+  Plan plan = plan_run(c, settings);
+  reckon_by(run_costs(runs_near(directory)), c, settings, plan);
+  return plan;
 }
 
 }  // namespace sluice

@@ -61,8 +61,7 @@ int run(const CLI::App& command, Arguments& arguments) {
   options.checkpoint_every_s = arguments.checkpoint_every_s;
   options.log_steps = arguments.log_steps;
   if (arguments.dry_run) {
-    Plan plan = plan_run(c, settings);
-    reckon_by(run_costs(runs_near(options.out)), c, settings, plan);
+    const Plan plan = plan_near(c, settings, options.out);
     fmt::print("{}into {}\n", describe(plan, available_memory_bytes()), options.out.string());
     refuse_if_too_large(c, settings, plan, available_memory_bytes());
     return 0;

@@ -112,8 +112,10 @@ class ForceSensor : public Sensor {
   }
 
   void append_values(const Solver& solver, std::vector<double>& values) const override {
-    const double acceleration_N = dot(solver.wall_reaction_N(patch_.behind, patch_.fluid_within_m), sensor_.normal);
-    const double pressure_N = dot(pressure_force_N(solver), sensor_.normal);
+    const Vec3d foot_N = foot_force_N(solver);
+    const Vec3d reaction_N = solver.wall_reaction_N(patch_.behind, patch_.fluid_within_m);
+    const double acceleration_N = dot(reaction_N + foot_N, sensor_.normal);
+    const double pressure_N = dot(pressure_force_N(solver) + foot_N, sensor_.normal);
     values.insert(values.end(), {primary_ == "acceleration" ? acceleration_N : pressure_N, acceleration_N, pressure_N});
   }
 
@@ -125,6 +127,13 @@ class ForceSensor : public Sensor {
     Vec3d sum;
     for (std::size_t k = 0; k < patch_.first.size(); ++k)
       sum += (-l0_m_ * l0_m_ * solver.wall_particle_pressure_Pa(patch_.first[k])) * patch_.first_normal[k];
+    return sum;
+  }
+
+  /// What the floor's particles pass on sideways where the water of the equations ends inside them: of both routes,
+  /// whose sums begin at the lowest fluid   [N]
+  Vec3d foot_force_N(const Solver& solver) const {
+    Vec3d sum;
     const double setback_m = solver.wall_setback_m();
     if (setback_m == 0) return sum;
     for (std::size_t k = 0; k < patch_.foot.size(); ++k)

@@ -68,12 +68,13 @@ Vec3d MpsSolver<Pack>::wall_reaction_N(std::span<const std::int32_t> walls, cons
 
 /// Mass times the acceleration by a pressure gradient with P_i + P_j in the place of P_j - P_i, in which what two
 /// particles do to each other is opposite and equal (Eq. 18 has no such symmetry); summed over the layers of a plane
-/// wall under one pressure it is that pressure times the area. A dummy has no pressure of its own: it takes its
-/// neighbour's.
+/// wall under one pressure it is that pressure times the area, where a fluid particle has the volume that its number
+/// density leaves it. A dummy has no pressure of its own: it takes its neighbour's.
 template <class Pack>
 Vec3d MpsSolver<Pack>::reaction_of(std::size_t i, const Box& fluid_within_m) const {
   const double l0 = constants_.parameters.particle_distance_m;
   const double radius = constants_.parameters.effective_radius_m();
+  const double n0 = constants_.lattice.number_density;
   const Vec3d x = particles_.position.template at<double>(i);
   Vec3d sum;
   for_each_near(
@@ -81,9 +82,11 @@ Vec3d MpsSolver<Pack>::reaction_of(std::size_t i, const Box& fluid_within_m) con
         const Vec3d x_j = particles_.position.template at<double>(j);
         if (distance >= radius || !holds_point(fluid_within_m, x_j)) return;
         const double P_i = particles_.is_dummy(i) ? particles_.pressure[j] : particles_.pressure[i];
-        sum += gradient_term(-P_i, particles_.pressure[j], x_j - x, distance * distance, weight(distance, radius));
+        const double volume_share = n0 / std::max<double>(particles_.number_density[j], n0);
+        sum += volume_share *
+               gradient_term(-P_i, particles_.pressure[j], x_j - x, distance * distance, weight(distance, radius));
       });
-  return (-l0 * l0 * l0 * 3 / constants_.lattice.number_density) * sum;
+  return (-l0 * l0 * l0 * 3 / n0) * sum;
 }
 
 template <class Pack>

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ci/file_error.h"
 #include "ci/shifts.h"
 #include "validation/file_hash.h"
 #include "validation/solver_factory.h"
@@ -19,10 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-[[noreturn]] void fail(const fs::path& file, const std::string& what) {
-  throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
-}
 
 json read(const fs::path& file) {
   std::ifstream in(file);

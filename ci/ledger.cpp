@@ -13,15 +13,13 @@
 #include <set>
 #include <stdexcept>
 
+#include "ci/file_error.h"
+
 namespace sluice::ci {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-[[noreturn]] void fail(const fs::path& file, const std::string& what) {
-  throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
-}
 
 enum class Access { read, append };
 

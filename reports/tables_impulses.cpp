@@ -11,7 +11,7 @@ namespace sluice {
 
 namespace {
 
-std::optional<double> percent(std::optional<double> share) {
+std::optional<double> in_percent(std::optional<double> share) {
   if (share) *share *= 100;
   return share;
 }
@@ -127,7 +127,7 @@ Table paper_impulses_table(const ReportData& data) {
   add_published_rows(table, data, sensors);
   add_run_rows(table, data, sensors, [](const Pair& pair) {
     return std::vector<TableCell>{number(pair.simulated, 0),
-                                  number(percent(unsigned_relative_deviation(pair.simulated, pair.measured)), 1)};
+                                  number(in_percent(unsigned_relative_deviation(pair.simulated, pair.measured)), 1)};
   });
   table.notes.push_back(
       "Deviations as in the paper: |simulated − measured| / measured. The signed ones stand in the next table. "
@@ -154,7 +154,8 @@ Table impulses_table(const ReportData& data, bool relative) {
     table.add(std::move(cells));
   }
   add_run_rows(table, data, sensors, [&](const Pair& pair) {
-    return std::vector<TableCell>{relative ? signed_number(percent(pair.deviation()), 1) : number(pair.simulated, 0)};
+    return std::vector<TableCell>{relative ? signed_number(in_percent(pair.deviation()), 1)
+                                           : number(pair.simulated, 0)};
   });
   return table;
 }

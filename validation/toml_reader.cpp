@@ -14,7 +14,7 @@
 namespace sluice {
 namespace {
 
-constexpr std::size_t longest_message = 1500;
+constexpr std::size_t longest_case_error = 1500;
 
 std::string_view type_name(const toml::node& node) {
   switch (node.type()) {
@@ -73,7 +73,7 @@ int line_of(const toml::node& node) {
 }  // namespace
 
 void throw_case_error(const std::string& file, int line, std::string_view key, std::string_view message) {
-  throw CaseError(fmt::format("{}:{}: {}: {}", file, line, printable(key), printable(message, longest_message)));
+  throw CaseError(fmt::format("{}:{}: {}: {}", file, line, printable(key), printable(message, longest_case_error)));
 }
 
 toml::table parse_toml(std::string_view text, const std::string& file) {

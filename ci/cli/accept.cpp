@@ -16,7 +16,7 @@
 namespace sluice::ci::cli {
 namespace {
 
-struct Arguments {
+struct AcceptArguments {
   std::string ledger = default_ledger;
   std::vector<std::string> series;
   std::string commit;
@@ -30,11 +30,11 @@ struct Arguments {
   bool dry_run = false;
 };
 
-bool selects_nothing(const Arguments& a) {
+bool selects_nothing(const AcceptArguments& a) {
   return !a.all && a.series.empty() && a.commit.empty() && a.case_name.empty() && a.solver.empty() && a.metric.empty();
 }
 
-bool is_selected(const Arguments& a, const SeriesFindings& found, const Finding& finding) {
+bool is_selected(const AcceptArguments& a, const SeriesFindings& found, const Finding& finding) {
   const SeriesKey& key = found.series.key;
   const auto agrees = [](const std::string& wanted, const std::string& has) { return wanted.empty() || wanted == has; };
   return finding.state == State::open && finding.first->commit.starts_with(a.commit) &&
@@ -42,7 +42,7 @@ bool is_selected(const Arguments& a, const SeriesFindings& found, const Finding&
          (a.series.empty() || std::find(a.series.begin(), a.series.end(), key.id()) != a.series.end());
 }
 
-Acceptance acceptance_of(const Arguments& a, const SeriesFindings& found, const Finding& finding) {
+Acceptance acceptance_of(const AcceptArguments& a, const SeriesFindings& found, const Finding& finding) {
   const bool shifted = finding.verdict != Verdict::missing;
   return {utc_now(),
           a.by,
@@ -54,7 +54,7 @@ Acceptance acceptance_of(const Arguments& a, const SeriesFindings& found, const 
           a.scatter && shifted};
 }
 
-int accept(const Arguments& arguments) {
+int accept(const AcceptArguments& arguments) {
   if (selects_nothing(arguments))
     throw sluice::cli::UsageError("say what to accept: --series, --commit, --case, --solver, --metric, or --all");
   if (arguments.reason.find_first_not_of(" \t") == std::string::npos)
@@ -78,7 +78,7 @@ int accept(const Arguments& arguments) {
 
 void add_accept(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("accept", "Put open regressions on record as known, with the reason");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<AcceptArguments>();
   if (const char* user = std::getenv("USER"); user != nullptr) arguments->by = user;
   add_ledger_option(*command, arguments->ledger);
   command->add_option("--series", arguments->series, "Of these series (the ids that check prints)");

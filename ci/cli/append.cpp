@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct AppendArguments {
   std::string ledger = default_ledger;
   std::vector<std::string> sources;
   Provenance given;
@@ -39,7 +39,7 @@ void fill_from_this_build(Provenance& given) {
   fill(given.flags, build.flags);
 }
 
-std::vector<Result> results_of(const fs::path& source, const Arguments& arguments) {
+std::vector<Result> results_of(const fs::path& source, const AppendArguments& arguments) {
   Provenance given = arguments.given;
   if (!arguments.link_base.empty()) {
     const fs::path clean = fs::absolute(source).lexically_normal();
@@ -50,7 +50,7 @@ std::vector<Result> results_of(const fs::path& source, const Arguments& argument
 }
 
 /// Sources that cannot be used do not keep the others out.
-int append(Arguments& arguments) {
+int append(AppendArguments& arguments) {
   if (!arguments.given.date.empty() && !is_date(arguments.given.date))
     throw sluice::cli::UsageError(
         fmt::format("--date: `{}` is not a date such as 2026-11-25T09:34:08Z", arguments.given.date));
@@ -77,7 +77,7 @@ int append(Arguments& arguments) {
 
 void add_append(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("append", "Add the results of runs and benchmarks");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<AppendArguments>();
   command
       ->add_option("SOURCE", arguments->sources,
                    "Run directories, and files that Google Benchmark wrote in its JSON form")

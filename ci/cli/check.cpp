@@ -9,12 +9,12 @@
 namespace sluice::ci::cli {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
   std::string ledger = default_ledger;
   bool everything = false;
 };
 
-int check(const Arguments& arguments) {
+int check(const CheckArguments& arguments) {
   const Ledger ledger = open_ledger(arguments.ledger);
   const std::vector<SeriesFindings> all = find_all(ledger);
   fmt::print("{}", summary(all, arguments.everything));
@@ -25,7 +25,7 @@ int check(const Arguments& arguments) {
 
 void add_check(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("check", "Say what has become worse; exit code 1 when something has");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CheckArguments>();
   add_ledger_option(*command, arguments->ledger);
   command->add_flag("--everything", arguments->everything,
                     "Also what is accepted, mended, better, or of a metric that raises no alarm");

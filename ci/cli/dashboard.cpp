@@ -12,12 +12,12 @@
 namespace sluice::ci::cli {
 namespace {
 
-struct Arguments {
+struct DashboardArguments {
   std::string ledger = default_ledger;
   std::string out = "runs/ledger.html";
 };
 
-int dashboard(const Arguments& arguments) {
+int dashboard(const DashboardArguments& arguments) {
   const Ledger ledger = open_ledger(arguments.ledger);
   write_dashboard(arguments.out, ledger, find_all(ledger));
   fmt::print("ledger dashboard: {}\n", arguments.out);
@@ -28,7 +28,7 @@ int dashboard(const Arguments& arguments) {
 
 void add_dashboard(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("dashboard", "Write one page that shows every series, without network");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<DashboardArguments>();
   add_ledger_option(*command, arguments->ledger);
   command->add_option("--out", arguments->out, "The page")->capture_default_str();
   command->footer(

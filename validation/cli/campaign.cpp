@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct CampaignArguments {
   std::string file;
   std::string out;
   int threads = 0;
@@ -72,7 +72,7 @@ void print_plan(const Campaign& campaign, bool force, const std::vector<RunCost>
   std::fflush(stdout);
 }
 
-RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Arguments& arguments) {
+RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const CampaignArguments& arguments) {
   const bool terminal = isatty(STDERR_FILENO) == 1;
   if (!arguments.force && state_of(campaign, run) == CampaignState::resumable) {
     ResumeOptions options;
@@ -92,7 +92,7 @@ RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Argum
 }
 
 /// A run that fails is told and does not stop the others. Returns the code of an interruption, or 0.
-int compute_all(const Campaign& campaign, const Arguments& arguments, const std::vector<fs::path>& others,
+int compute_all(const Campaign& campaign, const CampaignArguments& arguments, const std::vector<fs::path>& others,
                 std::vector<Result>& results) {
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
     const CampaignRun& run = campaign.runs[i];
@@ -156,7 +156,7 @@ int report_only(const Campaign& campaign, const fs::path& out) {
 }
 
 /// What a task of a job array does: one run, from wherever it stands.
-int compute_only(const Campaign& campaign, const Arguments& arguments) {
+int compute_only(const Campaign& campaign, const CampaignArguments& arguments) {
   const auto run = std::find_if(campaign.runs.begin(), campaign.runs.end(),
                                 [&](const CampaignRun& r) { return r.directory.filename() == arguments.only; });
   if (run == campaign.runs.end())
@@ -177,7 +177,7 @@ int compute_only(const Campaign& campaign, const Arguments& arguments) {
   return outcome.exit_code;
 }
 
-int compute_and_report(const Campaign& campaign, const Arguments& arguments, const fs::path& out,
+int compute_and_report(const Campaign& campaign, const CampaignArguments& arguments, const fs::path& out,
                        const std::vector<fs::path>& others) {
   std::vector<Result> results;
   const int interrupted = compute_all(campaign, arguments, others, results);
@@ -190,7 +190,7 @@ int compute_and_report(const Campaign& campaign, const Arguments& arguments, con
   return all_well ? 0 : 1;
 }
 
-int run_on_slurm(Campaign& campaign, const Arguments& arguments, const fs::path& out) {
+int run_on_slurm(Campaign& campaign, const CampaignArguments& arguments, const fs::path& out) {
   SlurmOptions& slurm = campaign.slurm;
   if (!arguments.partition.empty()) slurm.partition = arguments.partition;
   if (!arguments.time_limit.empty()) slurm.time_limit = arguments.time_limit;
@@ -202,7 +202,7 @@ int run_on_slurm(Campaign& campaign, const Arguments& arguments, const fs::path&
   return submit(campaign, {arguments.file, out, arguments.checkpoint_every_s, !arguments.no_report, arguments.dry_run});
 }
 
-int run(const Arguments& arguments) {
+int run(const CampaignArguments& arguments) {
   const fs::path file = arguments.file;
   const fs::path out = arguments.out.empty() ? fs::path("runs") / file.stem() : fs::path(arguments.out);
   Campaign campaign = load_campaign(file, out, arguments.threads);
@@ -222,7 +222,7 @@ int run(const Arguments& arguments) {
 
 void add_campaign(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("campaign", "Compute many runs from one file, and report them");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CampaignArguments>();
   command->add_option("FILE", arguments->file, "Campaign, such as validation/campaigns/quick.toml")->required();
   command->add_option("--out", arguments->out, "Directory of its runs and reports (default: runs/<file's name>)");
   command

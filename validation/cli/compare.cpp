@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct CompareArguments {
   std::vector<std::string> sources;
   std::string case_name;
   std::string out = "reports/out";
@@ -26,7 +26,7 @@ struct Arguments {
 };
 
 /// Run directories as they are; maps of foreign files become run directories below the report.
-std::vector<fs::path> run_directories(const Arguments& arguments) {
+std::vector<fs::path> run_directories(const CompareArguments& arguments) {
   std::vector<fs::path> directories;
   std::set<std::string> names;
   for (const std::string& source : arguments.sources) {
@@ -44,7 +44,7 @@ std::vector<fs::path> run_directories(const Arguments& arguments) {
   return directories;
 }
 
-int compare(Arguments& arguments) {
+int compare(CompareArguments& arguments) {
   const std::vector<fs::path> directories = run_directories(arguments);
   if (!arguments.case_name.empty()) {
     const std::string wanted = load_case(arguments.case_name).name;
@@ -62,7 +62,7 @@ int compare(Arguments& arguments) {
 
 void add_compare(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("compare", "Compare results of any code with the experiment and with runs");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CompareArguments>();
   command
       ->add_option(
           "SOURCE", arguments->sources,

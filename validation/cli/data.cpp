@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct DataArguments {
   std::string folder = "data/kleefsman2005";
   std::vector<std::string> raw;
   std::string out;
 };
 
-int digest(const Arguments& arguments) {
+int digest(const DataArguments& arguments) {
   const std::vector<DigestPlan> plans = digest_plans(resolve_in_source_tree(arguments.folder));
   if (plans.size() > 1 && !(arguments.raw.empty() && arguments.out.empty()))
     throw UsageError(
@@ -48,7 +48,7 @@ void add_data(CLI::App& app, int& exit_code) {
   data->require_subcommand(1);
   data->footer("Example:\n  sluice data digest --help");
   CLI::App* command = data->add_subcommand("digest", "Make the digests of a data folder from its raw files");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<DataArguments>();
   command->add_option("FOLDER", arguments->folder, "Data folder with source.toml (and NAME.source.toml)")
       ->capture_default_str();
   command->add_option(

@@ -11,7 +11,7 @@
 namespace sluice::cli {
 namespace {
 
-struct Arguments {
+struct ReportArguments {
   std::vector<std::string> runs;
   std::string out = "reports/out";
   ReportOptions options;
@@ -19,7 +19,7 @@ struct Arguments {
   bool no_snapshots = false;
 };
 
-int report(Arguments& arguments) {
+int report(ReportArguments& arguments) {
   arguments.options.figures = !arguments.no_figures;
   arguments.options.snapshots = !arguments.no_snapshots;
   write_report({arguments.runs.begin(), arguments.runs.end()}, arguments.out, arguments.options);
@@ -31,7 +31,7 @@ int report(Arguments& arguments) {
 
 void add_report(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("report", "Compare runs with the experiment and with each other");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReportArguments>();
   command
       ->add_option("DIR", arguments->runs, "Run directories, of one case; another code's need probes.csv and run.json")
       ->required();

@@ -11,18 +11,18 @@
 namespace sluice::cli {
 namespace {
 
-struct Arguments {
+struct ResumeArguments {
   std::string directory;
   ResumeOptions options;
 };
 
-const char* const footer =
+const char* const resume_footer =
     "Results are those of a run in one go, bit for bit, if program and case are the same; the number of threads may\n"
     "differ. A run writes checkpoints every ten minutes (run --checkpoint-every) and when it is interrupted.\n\n"
     "Example:\n"
     "  sluice resume runs/kleefsman-wcsph-extrapolated-l0.020-alpha0.01";
 
-int resume(Arguments& arguments) {
+int resume(ResumeArguments& arguments) {
   arguments.options.progress = stderr;
   arguments.options.terminal = isatty(STDERR_FILENO) == 1;
   const RunOutcome outcome = resume_run(arguments.directory, arguments.options);
@@ -36,7 +36,7 @@ int resume(Arguments& arguments) {
 
 void add_resume(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("resume", "Go on with a run that was interrupted or killed");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ResumeArguments>();
   command->add_option("DIR", arguments->directory, "Run directory with a checkpoint")->required();
   command->add_option("--threads", arguments->options.threads, "Threads (default: as many as before)")
       ->check(CLI::Range(1, 1024));
@@ -45,7 +45,7 @@ void add_resume(CLI::App& app, int& exit_code) {
                    "Seconds between checkpoints; 0: only when interrupted")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->footer(footer);
+  command->footer(resume_footer);
   command->callback([arguments, &exit_code] { exit_code = resume(*arguments); });
 }
 

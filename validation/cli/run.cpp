@@ -16,7 +16,7 @@
 namespace sluice::cli {
 namespace {
 
-struct Arguments {
+struct RunArguments {
   std::string case_name;
   RunRequest request;
   double l0_m = 0;
@@ -29,7 +29,7 @@ struct Arguments {
   double checkpoint_every_s = RunOptions().checkpoint_every_s;
 };
 
-const char* const footer =
+const char* const run_footer =
     "key=value overrides a parameter: t_end_s, output_rate_Hz, or one of the solver's (alpha, delta, courant,\n"
     "speed_of_sound_m_s, ...; an unknown key lists them).\n"
     "Ctrl-C ends a run cleanly and keeps what was computed; a second one ends it at once. `sluice resume DIR` goes "
@@ -40,7 +40,7 @@ const char* const footer =
     "  sluice run kleefsman --l0 0.02 t_end_s=0.1 delta=0.05 --threads 1\n"
     "  sluice run kleefsman --l0 0.0075 --dry-run";
 
-RunSettings settings_of(const Case& c, const CLI::App& command, Arguments& arguments) {
+RunSettings settings_of(const Case& c, const CLI::App& command, RunArguments& arguments) {
   RunRequest& request = arguments.request;
   try {
     if (command.count("--l0") > 0) request.l0_m = arguments.l0_m;
@@ -52,7 +52,7 @@ RunSettings settings_of(const Case& c, const CLI::App& command, Arguments& argum
   }
 }
 
-int run(const CLI::App& command, Arguments& arguments) {
+int run(const CLI::App& command, RunArguments& arguments) {
   const Case c = load_case(arguments.case_name);
   const RunSettings settings = settings_of(c, command, arguments);
   RunOptions options;
@@ -79,7 +79,7 @@ int run(const CLI::App& command, Arguments& arguments) {
 
 void add_run(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("run", "Run a case into a run directory");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RunArguments>();
   command->add_option("CASE", arguments->case_name, "Name of a case (see `sluice list`) or path of a case file")
       ->required();
   command->add_option("OVERRIDES", arguments->overrides, "key=value ...");
@@ -102,7 +102,7 @@ void add_run(CLI::App& app, int& exit_code) {
                     "A line in log.txt for every step; with MPS, the residuals of its pressure equation");
   command->add_flag("--dry-run", arguments->dry_run, "Print particles, memory and expected time, and stop");
   command->add_flag("--force", arguments->force, "Replace a run that stands in the directory already");
-  command->footer(footer);
+  command->footer(run_footer);
   command->callback([command, arguments, &exit_code] { exit_code = run(*command, *arguments); });
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ValidateArguments {
   std::string case_name = "kleefsman";
   std::string solver;
   std::string tier = "quick";
@@ -29,7 +29,7 @@ struct Arguments {
   bool reuse = false;
 };
 
-const char* const footer =
+const char* const validate_footer =
     "Runs the case at the tier with every solver and wall model: those with acceptance rows are judged, the others\n"
     "stand beside them in the report. Runs land in runs/validate-TIER-...; exit code 1 when a band is missed.\n\n"
     "Examples:\n"
@@ -60,7 +60,7 @@ bool is_current(const Case& c, const fs::path& directory) {
 }
 
 // Exit code of the run: 0, or what ends `validate` too.
-int run_once(const Case& c, const Arguments& arguments, const RunRequest& request, const fs::path& directory) {
+int run_once(const Case& c, const ValidateArguments& arguments, const RunRequest& request, const fs::path& directory) {
   if (arguments.reuse && is_current(c, directory)) {
     fmt::print(stderr, "{}: reused\n", directory.string());
     return 0;
@@ -109,7 +109,7 @@ bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
   return passed && judged;
 }
 
-std::vector<RunRequest> requests(const Case& c, const Arguments& arguments, const Tier& tier) {
+std::vector<RunRequest> requests(const Case& c, const ValidateArguments& arguments, const Tier& tier) {
   std::vector<RunRequest> all;
   for (const SolverOption& solver : c.solvers) {
     if (!arguments.solver.empty() && solver.name != arguments.solver) continue;
@@ -127,7 +127,7 @@ std::vector<RunRequest> requests(const Case& c, const Arguments& arguments, cons
   return all;
 }
 
-int validate(const Arguments& arguments) {
+int validate(const ValidateArguments& arguments) {
   const Case c = load_case(arguments.case_name);
   const Tier& tier = find_tier(c, arguments.tier);
   if (!arguments.solver.empty()) find_solver(c, arguments.solver);
@@ -152,7 +152,7 @@ int validate(const Arguments& arguments) {
 void add_validate(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("validate", "Run a case at a tier, report it, and judge it by its acceptance bands");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ValidateArguments>();
   command->add_option("CASE", arguments->case_name, "Case")->capture_default_str();
   command->add_option("--solver", arguments->solver, "Solver (default: all of the case)");
   command->add_option("--tier", arguments->tier, "Resolution: a tier of the case")->capture_default_str();
@@ -160,7 +160,7 @@ void add_validate(CLI::App& app, int& exit_code) {
   command->add_option("--out", arguments->out, "Directory of the report")->capture_default_str();
   command->add_option("--runs", arguments->runs, "Directory of the runs")->capture_default_str();
   command->add_flag("--reuse", arguments->reuse, "Keep finished runs of the same commit and case file");
-  command->footer(footer);
+  command->footer(validate_footer);
   command->callback([arguments, &exit_code] { exit_code = validate(*arguments); });
 }
 

@@ -141,18 +141,30 @@ std::string tick_words(const std::vector<std::string>& words) {
   return out;
 }
 
+/// 2 and 5 of every decade: gnuplot names powers of ten alone, of which an axis may hold one or none.
+std::string between_decades() {
+  std::string out;
+  for (int decade = -6; decade <= 9; ++decade)
+    out += fmt::format("{}2e{}, 5e{}", out.empty() ? "" : ", ", decade, decade);
+  return out;
+}
+
+std::string axis_scale(char axis, bool log) {
+  if (!log) return fmt::format("unset logscale {0}\nset {0}tics autofreq nomirror\n", axis);
+  return fmt::format("set logscale {0}\nset {0}tics autofreq nomirror\nset {0}tics add ({1})\n", axis,
+                     between_decades());
+}
+
 std::string panel_script(const PlotPanel& panel, const std::string& data_name, DataFile& data) {
   std::string out;
   out += fmt::format("set title \"{}\"\n", escape_gnuplot(panel.title));
   out += fmt::format("set xlabel \"{}\" offset 0,0.4\nset ylabel \"{}\"\n", escape_gnuplot(panel.x_label),
                      escape_gnuplot(panel.y_label));
   out += fmt::format("set xrange {}\nset yrange {}\n", range_text(panel.x_range), range_text(panel.y_range));
-  out += panel.log_x ? "set logscale x\n" : "unset logscale x\n";
-  out += panel.log_y ? "set logscale y\n" : "unset logscale y\n";
-  out += panel.x_ticks.empty()
-             ? "set xtics autofreq nomirror\n"
-             : fmt::format("set xtics nomirror {} ({})\n", panel.slanted_ticks ? "rotate by 32 right" : "norotate",
-                           tick_words(panel.x_ticks));
+  out += axis_scale('x', panel.log_x) + axis_scale('y', panel.log_y);
+  if (!panel.x_ticks.empty())
+    out += fmt::format("set xtics nomirror {} ({})\n", panel.slanted_ticks ? "rotate by 32 right" : "norotate",
+                       tick_words(panel.x_ticks));
   if (panel.slanted_ticks) out += "set rmargin 3\n";
   std::vector<std::string> plots;
   for (const PlotBand& band : panel.bands) add_band(band, data_name, data, plots);

@@ -117,7 +117,16 @@ struct Lanes<FloatPack> {
   /// Adds the first n lanes to memory; the memory behind them is not touched.
   [[gnu::always_inline]] static void add(float* p, FloatPack v, int n) {
     const FloatPack sum = load(p) + v;
-    stdx::where(first(n) > FloatPack{}, sum).copy_to(p, stdx::element_aligned);
+    if constexpr (width > 4) {
+      stdx::where(first(n) > FloatPack{}, sum).copy_to(p, stdx::element_aligned);
+    } else if (n == width) {
+      store(sum, p);
+    } else {
+      // The masked store of these machines goes past the caches: 50 times slower.
+      std::array<float, width> values;
+      store(sum, values.data());
+      std::copy_n(values.begin(), n, p);
+    }
   }
 
  private:

@@ -52,7 +52,7 @@ struct Wall {
 class StillWater : public ::testing::TestWithParam<std::string> {};
 
 /// Of the mean over the last fifth of a second, against the force of water as deep as it stands then: MPS settles by
-/// kappa_r's softness, by 1.9 % here. Its particles at the surface have P = 0 at their centres, so that its water
+/// kappa_r's softness, by 1.4 % here. Its particles at the surface have P = 0 at their centres, so that its water
 /// stands half a particle lower than the tank's, at the surface as on the floor.
 TEST_P(StillWater, BothRoutesGiveTheExactForce) {
   const Case c = still_water();

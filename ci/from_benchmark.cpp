@@ -7,11 +7,10 @@
 #include <ctime>
 #include <fstream>
 #include <map>
-#include <stdexcept>
 #include <string>
 
-#include "ci/file_error.h"
 #include "ci/shifts.h"
+#include "validation/file_error.h"
 #include "validation/file_hash.h"
 #include "validation/solver_factory.h"
 

@@ -13,7 +13,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "ci/file_error.h"
+#include "validation/file_error.h"
 
 namespace sluice::ci {
 namespace {

@@ -9,13 +9,13 @@
 #include <cerrno>
 #include <cstddef>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "solvers/state_archive.h"
+#include "validation/file_error.h"
 
 namespace sluice {
 namespace {
@@ -24,10 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* format_name = "sluice checkpoint";
 constexpr const char* remedy = "start the run anew with `sluice run ... --force`, or put an older copy in its place";
-
-[[noreturn]] void fail(const fs::path& file, const std::string& what) {
-  throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
-}
 
 /// An HDF5 identifier that closes itself.
 class Handle {

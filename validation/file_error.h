@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <string>
 
-namespace sluice::ci {
+namespace sluice {
 
 /// Throws std::runtime_error with "FILE: WHAT".
 [[noreturn]] inline void fail(const std::filesystem::path& file, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
 }
 
-}  // namespace sluice::ci
+}  // namespace sluice

@@ -203,9 +203,6 @@ bool RowIndex::any_near(const Vec3d& point) const {
 }
 
 std::int64_t RowIndex::memory_bytes() const {
-  const auto bytes = [](const std::vector<std::int32_t>& v) {
-    return static_cast<std::int64_t>(v.capacity() * sizeof(std::int32_t));
-  };
   return bytes(order_) + bytes(by_row_) + bytes(row_start_) + bytes(start_);
 }
 

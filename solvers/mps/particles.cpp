@@ -1,5 +1,7 @@
 #include "solvers/mps/particles.h"
 
+#include "solvers/encode_positions.h"
+
 namespace sluice::mps {
 
 template <class Pack>
@@ -45,17 +47,12 @@ void Particles<Pack>::permute(std::size_t first, std::span<const std::int32_t> f
 
 template <class Pack>
 void Particles<Pack>::encode_positions(const Box& domain, std::size_t first, int threads) {
-  const double extent = longest_edge(domain);
-  const FixedPoint<Coordinate> fx(domain.lower.x, extent);
-  const FixedPoint<Coordinate> fy(domain.lower.y, extent);
-  const FixedPoint<Coordinate> fz(domain.lower.z, extent);
-  const auto n = static_cast<std::int64_t>(size());
+  const auto parts = static_cast<std::size_t>(threads);
+  const std::size_t n = size() - first;
 #pragma omp parallel for num_threads(threads) schedule(static)
-  for (auto k = static_cast<std::int64_t>(first); k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    coordinate.x[i] = fx.encode(position.x[i]);
-    coordinate.y[i] = fy.encode(position.y[i]);
-    coordinate.z[i] = fz.encode(position.z[i]);
+  for (int t = 0; t < threads; ++t) {
+    const auto part = static_cast<std::size_t>(t);
+    sluice::encode_positions(position, domain, first + n * part / parts, first + n * (part + 1) / parts, coordinate);
   }
 }
 

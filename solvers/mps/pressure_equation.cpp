@@ -16,11 +16,11 @@ constexpr std::uint32_t few_neighbours = 4;
 template <class Pack>
 bool is_at_surface(const Particles<Pack>& p, const OperatorConstants& c, std::size_t i, std::uint32_t neighbours) {
   if (neighbours <= few_neighbours) return true;
-  const auto& parameters = c.parameters;
-  return static_cast<double>(p.number_density[i])<parameters.least_density_ratio *
-                                                  c.lattice.number_density&& static_cast<double>(p.centroid_offset[i])>
-             parameters.centroid_over_distance *
-         parameters.particle_distance_m;
+  const auto n_i = static_cast<double>(p.number_density[i]);
+  const auto sigma_i = static_cast<double>(p.centroid_offset[i]);
+  const bool is_sparse = n_i < c.parameters.least_density_ratio * c.lattice.number_density;
+  const bool is_lopsided = sigma_i > c.parameters.centroid_over_distance * c.parameters.particle_distance_m;
+  return is_sparse && is_lopsided;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "solvers/wcsph/particles.h"
 
+#include "solvers/encode_positions.h"
+
 namespace sluice::wcsph {
 template <class Pack>
 void Particles<Pack>::resize(std::size_t count) {
@@ -32,15 +34,7 @@ void Particles<Pack>::permute(std::span<const std::int32_t> order, int threads) 
 
 template <class Pack>
 void Particles<Pack>::encode_positions(const Box& domain, std::size_t first, std::size_t last) {
-  const double extent = longest_edge(domain);
-  const FixedPoint<Coordinate> x(domain.lower.x, extent);
-  const FixedPoint<Coordinate> y(domain.lower.y, extent);
-  const FixedPoint<Coordinate> z(domain.lower.z, extent);
-  for (std::size_t i = first; i < last; ++i) {
-    coordinate.x[i] = x.encode(position.x[i]);
-    coordinate.y[i] = y.encode(position.y[i]);
-    coordinate.z[i] = z.encode(position.z[i]);
-  }
+  sluice::encode_positions(position, domain, first, last, coordinate);
 }
 
 template <class Pack>

@@ -112,7 +112,7 @@ PressureReading WcsphSolver<Pack>::wall_pressure(const Vec3d& point_m) const {
   int count = 0;
   for_each_near(sorted_walls().sorted, point_m, [&](std::size_t j, double distance) {
     const Vec3d p = walls_.position.template at<double>(j);
-    const double from_face = std::abs((face.axis == 0 ? p.x : face.axis == 1 ? p.y : p.z) - face.coordinate_m);
+    const double from_face = std::abs(component(p, face.axis) - face.coordinate_m);
     if (wall_layer_[wall_of(j)] != 0 || distance > h || from_face > 0.75 * parameters_.particle_distance_m) return;
     sum += static_cast<double>(walls_.pressure[j]);
     ++count;

@@ -105,6 +105,27 @@ TEST(MpsOperators, GradientOnAJitteredLatticeIsOfOrderZero) {
   EXPECT_LT(fine, 1.5);
 }
 
+/// What is listed beyond the effective radius, so that lists outlive a small displacement, must not be felt.
+TEST(MpsOperators, GradientDoesNotSeeBeyondTheEffectiveRadius) {
+  Operators o(0.02, 0.1);
+  int seen = 0;
+  for (std::size_t i = o.particles.first_fluid(); i < o.particles.size(); ++i) {
+    const auto& far = o.solver.neighbours().far();
+    const Span span = far.span(i);
+    bool plain = false;
+    const Vec3d before = pressure_gradient(o.particles, o.solver.neighbours(), o.constants, i, plain);
+    for (std::uint32_t k = span.begin; k < span.end; ++k) {
+      const auto j = static_cast<std::size_t>(far.columns()[k]);
+      if (far.values()[k] > 0 || j == i) continue;
+      o.particles.pressure[j] = -1e6;
+      EXPECT_EQ(pressure_gradient(o.particles, o.solver.neighbours(), o.constants, i, plain), before) << i << " " << j;
+      o.particles.pressure[j] = 0;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 100);
+}
+
 TEST(MpsOperators, GradientOfALinearFieldIsExactOnALattice) {
   const double error = Operators(0.02, 0).gradient_error([](const Vec3d& r) { return 3 * r.x - r.y + 0.5 * r.z; },
                                                          [](const Vec3d&) {

@@ -55,14 +55,17 @@ template <class Pack, class Real>
   return {L::gather(field.x.data(), columns), L::gather(field.y.data(), columns), L::gather(field.z.data(), columns)};
 }
 
-/// Of the least pressure so far, the particle's own to begin with, and those of some neighbours; what fills rows up is
-/// the particle itself.
-double least_pressure(const std::vector<double>& pressure, Span span, const std::int32_t* columns, double so_far) {
+/// Of the least pressure so far, the particle's own to begin with, and those of the neighbours in a part of a row. What
+/// is listed beyond the effective radius, or fills the row up, has no weight and does not count.
+template <class Real>
+double least_pressure(const std::vector<double>& pressure, const SparseRows<Real>& rows, Span span, double so_far) {
   std::array<double, row_unit> least{};
   least.fill(so_far);
   for (std::uint32_t k = span.begin; k < span.end; k += row_unit)
-    for (std::uint32_t m = 0; m < row_unit; ++m)
-      least[m] = std::min(least[m], pressure[static_cast<std::size_t>(columns[k + m])]);
+    for (std::uint32_t m = 0; m < row_unit; ++m) {
+      const double p = pressure[static_cast<std::size_t>(rows.columns()[k + m])];
+      least[m] = std::min(least[m], rows.values()[k + m] > 0 ? p : so_far);
+    }
   return *std::min_element(least.begin(), least.end());
 }
 
@@ -109,8 +112,8 @@ Vec3d pressure_gradient(const Particles<Pack>& p, const NeighbourList<Pack>& lis
   using L = Lanes<Pack>;
   using Real = typename L::Real;
   const Span far = list.far_with_pressure(i);
-  const double least = least_pressure(p.pressure, list.near().span(i), list.near().columns(), p.pressure[i]);
-  const Pack reference(static_cast<Real>(least_pressure(p.pressure, far, list.far().columns(), least)));
+  const double least = least_pressure(p.pressure, list.near(), list.near().span(i), p.pressure[i]);
+  const Pack reference(static_cast<Real>(least_pressure(p.pressure, list.far(), far, least)));
   Vec3<Pack> sum{};
   Symmetric3<Pack> matrix{};
   for_packs<Pack>(list, i, far, [&](const std::int32_t* columns, const Pack& weights, int lanes) {

@@ -34,11 +34,13 @@ std::unique_ptr<Solver> make(const std::string& solver, const Scene& scene, int 
     mps::Parameters p;
     p.particle_distance_m = l0;
     p.greatest_speed_m_s = 2.5;
+    p.gravity_m_s2 = scene.description.gravity_m_s2;
     return make_mps_solver(scene, p, threads);
   }
   wcsph::Parameters p;
   p.particle_distance_m = l0;
   p.water_height_m = depth_m;
+  p.gravity_m_s2 = scene.description.gravity_m_s2;
   p.speed_of_sound_m_s = 10 * std::sqrt(9.81 * depth_m);
   p.wall_friction = 0;
   p.walls = solver == "wcsph-dynamic" ? wcsph::WallModel::dynamic : wcsph::WallModel::extrapolated;
@@ -132,6 +134,23 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Gate, ::testing::Values("wcsph", "wcsph-dynami
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 });
+
+/// A plate that runs into a single particle at rest, which has no pressure: spray.
+TEST(Piston, PushesALoneParticleAheadOfItself) {
+  for (const std::string name : {"wcsph", "mps"}) {
+    SceneDescription d = gated_tank(0, 3);
+    d.gravity_m_s2 = {0, 0, 0};
+    d.fluid = {{{0.30, 0.02, 0.04}, {0.32, 0.04, 0.06}}};
+    d.obstacles = {Obstacle{.box = {{0.16, 0, 0}, {0.24, 0.08, 0.12}}, .name = "plate"}};
+    d.obstacles[0].motion = {{0.5, 0, 0}, 0, 0.4};
+    const Scene scene = build_scene(d);
+    ASSERT_EQ(scene.fluid.size(), 1U);
+    const auto solver = make(name, scene, 1);
+    run_to(*solver, 0.4);
+    EXPECT_EQ(solver->lost().through_walls, 0) << name;
+    EXPECT_GT(front_m(*solver), 0.44 - 0.5 * l0) << name;
+  }
+}
 
 TEST(RigidMotion, StartsAndStops) {
   const RigidMotion m{{0, 0, 2}, 1, 3};

@@ -43,7 +43,7 @@ struct WallAhead {
   /// Takes away the velocity into the wall where the particle would come too near.
   Vec3d contact(const Vec3d& velocity, double wall_m, double dt_s) const {
     const double length = std::sqrt(dot(normal, normal));
-    if (length == 0) return {};
+    if (length == 0 || wall_m <= 0) return {};
     const Vec3d n = (1 / length) * normal;
     const double into = dot(velocity - (1 / shares) * velocity_m_s, n);
     if (into >= 0 || gap_m + dt_s * into >= wall_m) return {};

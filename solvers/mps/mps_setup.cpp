@@ -109,6 +109,7 @@ void MpsSolver<Pack>::place(const Scene& scene) {
   set_moving_walls(0);
   sort_solids(dummies_);
   sort_solids(walls_);
+  copy_wall_velocities();
   for (std::size_t k = 0; k < scene.fluid.size(); ++k) {
     particles_.position.set(particles_.first_fluid() + k, scene.fluid[k]);
     particles_.id[particles_.first_fluid() + k] = static_cast<std::int32_t>(k);

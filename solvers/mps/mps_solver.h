@@ -88,6 +88,7 @@ class MpsSolver final : public Solver {
   void sort_solids(Solids& solids);
   void set_moving_walls(double t_s);
   void bring_walls_to(double t_s);
+  void copy_wall_velocities();
   void find_wall_normals();
   std::size_t place_of(std::int32_t wall) const {
     return static_cast<std::size_t>(wall_place_[static_cast<std::size_t>(wall)]);
@@ -105,7 +106,7 @@ class MpsSolver final : public Solver {
 
   void visit_counts(StateArchive& archive);
   void list_as_before();
-  double greatest_number_density() const;  ///< of the fluid, at the last solution
+  double greatest_number_density() const;  ///< of the fluid, where neighbours were last listed
 
   int threads_;
   Tank tank_;

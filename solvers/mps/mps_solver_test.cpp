@@ -153,6 +153,18 @@ TEST(MpsSolver, WallsStopWhatGoesIntoThemOnly) {
   }
 }
 
+TEST(MpsSolver, WallsWithoutContactStopNothing) {
+  const double l0 = 0.02;
+  Parameters p = parameters_for(l0, 5);
+  p.gravity_m_s2 = {0, 0, 0};
+  p.viscosity_m2_s = 0;
+  p.wall_contact_over_distance = 0;
+  MpsSolver<double> solver(free_particles(l0, {{0.393, 0.402, 0.05 * l0}}), p, 1);
+  solver.set_velocity(0, {0, 0, -3});
+  run(solver, 8);
+  EXPECT_LT(solver.particles().velocity.z[solver.particles().first_fluid()], -2.9) << "past the layer's plane";
+}
+
 /// The gradient with the least pressure as reference does not act in equal and opposite pairs: momentum of a drop is
 /// kept only nearly.
 TEST(MpsSolver, MomentumOfADropIsNearlyKept) {

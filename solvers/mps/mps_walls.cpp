@@ -37,8 +37,18 @@ void MpsSolver<Pack>::bring_walls_to(double t_s) {
   set_moving_walls(t_s);
   sort_solids(dummies_);
   sort_solids(walls_);
+  copy_wall_velocities();
   find_wall_normals();
   particles_.encode_positions(tank_.domain(), 0, threads_);
+}
+
+/// Predictions and collisions write the fluid's velocities into a second array, which then takes the place of the
+/// first: both have to hold those of the walls.
+template <class Pack>
+void MpsSolver<Pack>::copy_wall_velocities() {
+  next_velocity_.resize(particles_.size());
+  for (std::size_t i = 0; i < particles_.first_fluid(); ++i)
+    next_velocity_.set(i, particles_.velocity.template at<double>(i));
 }
 
 template <class Pack>

@@ -55,7 +55,8 @@ Tank::Tank(const Scene& scene)
   domain_.upper.z = inside_.upper.z + l0;
   bodies_.push_back(tank);
   for (const Obstacle& o : scene.fitted.obstacles) {
-    solids_.push_back({shrunk(o, tank, l0, l0), shrunk(o, tank, half_m_, l0), o.motion});
+    const bool has_bottom = o.motion.moves() || o.box.lower.z > tank.lower.z;
+    solids_.push_back({shrunk(o, tank, l0, l0), shrunk(o, tank, half_m_, l0), has_bottom, o.motion});
     if (!o.motion.moves()) {
       bodies_.push_back(o.box);
       continue;
@@ -103,7 +104,7 @@ bool Tank::hold(Vec3d& p, Vec3d& u) const {
     Vec3d relative = p - s.displacement_m;
     if (!holds_inside(s.skin, relative) || holds_inside(s.core, relative)) continue;
     Vec3d velocity = u - s.velocity_m_s;
-    push_out(s.skin, s.motion.moves(), relative, velocity);
+    push_out(s.skin, s.has_bottom, relative, velocity);
     p = relative + s.displacement_m;
     u = velocity + s.velocity_m_s;
     held = true;

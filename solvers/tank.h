@@ -15,8 +15,9 @@ enum class Whereabouts : std::uint8_t { inside = 0, over_top = 1, through_wall =
 class Tank {
   /// An obstacle where it is now.
   struct Solid {
-    Box core;  ///< shrunk by the tolerance at its wet faces
-    Box skin;  ///< shrunk by half the tolerance
+    Box core;                 ///< shrunk by the tolerance at its wet faces
+    Box skin;                 ///< shrunk by half the tolerance
+    bool has_bottom = false;  ///< fluid can be under it
     RigidMotion motion;
     Vec3d displacement_m{};
     Vec3d velocity_m_s{};

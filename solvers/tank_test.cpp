@@ -7,12 +7,13 @@ namespace {
 
 constexpr double l0 = 0.02;
 
-/// A tank with a block that stands on its floor, and one that hangs in it and will rise.
+/// A tank with a block that stands on its floor, one that hangs in it, and one that hangs and will rise.
 Tank tank_with_bodies() {
   SceneDescription d;
   d.tank = {{0, 0, 0}, {1, 1, 0.4}};
   d.fluid = {{{0.8, 0, 0}, {1, 1, 0.1}}};
   d.obstacles = {{.box = {{0.2, 0.2, 0}, {0.4, 0.4, 0.2}}},
+                 {.box = {{0.6, 0.4, 0.1}, {0.8, 0.6, 0.2}}},
                  {.box = {{0.2, 0.6, 0.1}, {0.4, 0.8, 0.2}}, .motion = {.velocity_m_s = {0, 0, 1}, .stop_s = 1}}};
   d.particle_distance_m = l0;
   return Tank(build_scene(d));
@@ -49,6 +50,16 @@ TEST(Tank, ABodyThatMovesPushesAtItsOwnSpeedAndHasABottom) {
   EXPECT_TRUE(tank.hold(x, u));
   EXPECT_DOUBLE_EQ(x.z, 0.2 + 0.5 * l0);
   EXPECT_DOUBLE_EQ(u.z, 1);
+}
+
+TEST(Tank, WhatRisesAgainstABodyThatHangsStaysUnderIt) {
+  const Tank tank = tank_with_bodies();
+  Vec3d x{0.7, 0.5, 0.1 + 0.75 * l0};
+  Vec3d u{1, 0, 2};
+  EXPECT_TRUE(tank.hold(x, u));
+  EXPECT_DOUBLE_EQ(x.z, 0.1 + 0.5 * l0);
+  EXPECT_DOUBLE_EQ(u.z, 0);
+  EXPECT_DOUBLE_EQ(u.x, 1);
 }
 
 TEST(Tank, TellsWhichWayAParticleLeft) {

@@ -56,7 +56,7 @@ WcsphSolver<Pack>::WcsphSolver(const Scene& scene, const Parameters& parameters,
     const double reach_m = fluid_index_.geometry().radius_m;
     for (const std::int32_t w : wet_walls_) {
       const auto i = static_cast<std::size_t>(w);
-      fill_hydrostatically(walls_, i, scene.still_level_m(walls_.position.template at<double>(i), reach_m));
+      fill_hydrostatically(walls_, i, hydrostatic_level_m(scene, walls_.position.template at<double>(i), reach_m));
     }
   }
   update_fluid_state();
@@ -71,7 +71,7 @@ void WcsphSolver<Pack>::place_fluid(const Scene& scene) {
     fluid_.id[i] = static_cast<std::int32_t>(i);
   }
   for (std::size_t i = 0; i < fluid_.n; ++i)
-    fill_hydrostatically(fluid_, i, scene.still_level_m(fluid_.position.template at<double>(i), 0));
+    fill_hydrostatically(fluid_, i, hydrostatic_level_m(scene, fluid_.position.template at<double>(i), 0));
   sort_if_due(true);
 }
 
@@ -121,10 +121,16 @@ void WcsphSolver<Pack>::set_moving_walls(double t_s) {
   });
 }
 
-/// P = rho_0 g (H - z) below the still level H, which is no higher than H_W [Pa].
+/// The still level at a point, or H_W above the tank's floor where that is lower   [m]
 template <class Pack>
-void WcsphSolver<Pack>::fill_hydrostatically(Particles<Pack>& particles, std::size_t i, double still_level_m) const {
-  const double depth = std::min(parameters_.water_height_m, still_level_m) - particles.position.z[i];
+double WcsphSolver<Pack>::hydrostatic_level_m(const Scene& scene, const Vec3d& point_m, double reach_m) const {
+  return std::min(scene.fitted.tank.lower.z + parameters_.water_height_m, scene.still_level_m(point_m, reach_m));
+}
+
+/// P = rho_0 g (H - z) below the level H   [Pa]
+template <class Pack>
+void WcsphSolver<Pack>::fill_hydrostatically(Particles<Pack>& particles, std::size_t i, double level_m) const {
+  const double depth = level_m - particles.position.z[i];
   const double pressure = std::max(0.0, -parameters_.reference_density_kg_m3 * parameters_.gravity_m_s2.z * depth);
   particles.density[i] = static_cast<typename Lanes<Pack>::Real>(tait_density_deviation(pressure, constants_.tait));
   particles.density_previous[i] = particles.density[i];

@@ -125,7 +125,8 @@ void WcsphSolver<Pack>::update_walls() {
   }
 }
 
-/// Wall particles that no fluid can reach until the next sort are left out of the sums; they carry no pressure.
+/// Wall particles that no fluid can reach until the next sort are left out of the sums. Extrapolated ones carry no
+/// pressure then; dynamic ones keep the density that they have.
 template <class Pack>
 void WcsphSolver<Pack>::find_wet_walls() {
   const auto n = static_cast<std::int64_t>(walls_.n);
@@ -137,6 +138,7 @@ void WcsphSolver<Pack>::find_wet_walls() {
     if (wet_[i] != 0) continue;
     walls_.density_rate[i] = 0;
     if (parameters_.walls == WallModel::extrapolated) walls_.density[i] = 0;
+    walls_.density_previous[i] = walls_.density[i];  // or the leap would swap two old values
     apply_equation_of_state(walls_, i, constants_);
   }
   wet_walls_.clear();

@@ -61,7 +61,8 @@ class WcsphSolver final : public Solver {
  private:
   void place_fluid(const Scene& scene);
   void place_walls(const Scene& scene);
-  void fill_hydrostatically(Particles<Pack>& particles, std::size_t i, double still_level_m) const;
+  double hydrostatic_level_m(const Scene& scene, const Vec3d& point_m, double reach_m) const;
+  void fill_hydrostatically(Particles<Pack>& particles, std::size_t i, double level_m) const;
   void sort_walls();
   void set_moving_walls(double t_s);
   void visit_moving_walls(StateArchive& archive);

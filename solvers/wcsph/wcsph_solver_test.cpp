@@ -198,6 +198,18 @@ TEST(WcsphSolver, WalledInFluidIsNotLost) {
   EXPECT_EQ(s.fluid_count() + s.lost().over_top, static_cast<std::int64_t>(scene.fluid.size()));
 }
 
+TEST(WcsphSolver, StartsHydrostaticallyWhereverTheFloorIs) {
+  const auto greatest_pressure = [](double floor_m) {
+    SceneDescription d = still_tank(0.02, 0.4, 0.2, 0.4, 0.2, WallModel::extrapolated);
+    for (Box* box : {&d.tank, &d.fluid[0]}) *box = shifted(*box, {0, 0, floor_m});
+    WcsphSolver<FloatPack> s(build_scene(d), parameters_for(d, 0.2, WallModel::extrapolated), 1);
+    const std::vector<float> p = s.snapshot().pressure_Pa;
+    return *std::max_element(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(s.fluid_count()));
+  };
+  EXPECT_NEAR(greatest_pressure(0), 1000 * 9.81 * 0.19, 1);
+  EXPECT_NEAR(greatest_pressure(1), greatest_pressure(0), 1);
+}
+
 TEST(WcsphSolver, CountsParticlesThatPassThroughAWallApartFromThoseOverTheTop) {
   // One shot at a wall faster than it can be held, one upwards out of the tank.
   WcsphSolver<FloatPack> s(free_particles(l0, {{0.1, 0.4, 0.4}, {0.6, 0.4, 0.6}}), free_parameters(l0), 1);

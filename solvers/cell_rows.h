@@ -137,7 +137,8 @@ class RowIndex {
   std::vector<std::int32_t> start_;      ///< first particle of each slice, (nx + 1) a row
 };
 
-/// Which points may have particles of a set that does not move within the kernel's radius: a look-up of one byte.
+/// Which points may have particles of a sorted set within the kernel's radius, as long as that set moves by no more
+/// than the slack of its index: a look-up of one byte.
 class Proximity {
  public:
   /// The index must be sorted.

@@ -1,5 +1,7 @@
 // What the paper leaves out: short-range models that keep fluid particles from clustering and from passing through
-// walls. Both change predicted velocities, before anything moves, and never add energy.
+// walls. Both change predicted velocities, before anything moves. A single collision or contact takes energy away; of
+// several at once, all reckoned from the same velocities, a crowd straight ahead could give some back. In runs the
+// energy falls (see the README).
 //
 // Fluid: pairs that approach and would be closer than Parameters::collision_over_distance collide with restitution e
 // (Lee, Park, Kim and Hwang 2011, Comput. Methods Appl. Mech. Eng. 200:1113).

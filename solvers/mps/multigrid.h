@@ -1,6 +1,6 @@
 // Multigrid as preconditioner of the pressure equation: unknowns are gathered into cells of 2 l0, those into cells
-// twice as wide, and so on; the matrix of a coarse level sums the entries between two cells. One V-cycle, the same
-// forwards and backwards, so that conjugate gradients may use it.
+// twice as wide, and so on; the matrix of a coarse level sums the entries between two cells. One cycle, a V at the
+// finest level and a W below it, the same forwards and backwards, so that conjugate gradients may use it.
 #pragma once
 
 #include <cstdint>

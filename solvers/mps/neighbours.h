@@ -15,7 +15,7 @@ namespace sluice::mps {
 struct SearchSet {
   const RowIndex& index;
   std::size_t first;
-  const Proximity* proximity = nullptr;  ///< of sets that do not move
+  const Proximity* proximity = nullptr;  ///< of sets that are sorted as often as they move: walls and dummies
 };
 
 /// Distances of the weight in quanta of the coordinates.

@@ -1,4 +1,5 @@
-// What a run of the MPS solver is given. Defaults are the paper's.
+// What a run of the MPS solver is given. Defaults are the paper's where it has the parameter: tolerated crowding,
+// collisions, contacts with walls and multigrid are this project's.
 #pragma once
 
 #include "solvers/vec3.h"

@@ -13,7 +13,7 @@ namespace sluice::wcsph {
 template <class Pack>
 struct PairLaw {
   Pack least_pressure_sum;  ///< P_i + P_j [Pa] counts as this where it is less
-  Pack viscosity_factor;    ///< m alpha h   [kg m], h in quanta times quanta in metres
+  Pack viscosity_factor;    ///< m alpha h   [kg quantum]
 };
 
 /// What every pair needs to know, in the precision of the path. Pair distances are in quanta of the fixed-point
@@ -50,7 +50,8 @@ struct Sorted {
   double travel_m = 0;
 };
 
-/// Wall particles do not move, so that it is known beforehand where they are near.
+/// Wall particles move, between two sorts, by no more than the search's slack: where they may be near is known
+/// beforehand.
 template <class Pack>
 struct SortedWalls {
   Sorted<Pack> sorted;

@@ -1,4 +1,4 @@
-// The parameters of the WCSPH solver, with the paper's values as defaults.
+// The parameters of the WCSPH solver, with the paper's values as defaults, but for the restart interval and the walls.
 #pragma once
 
 #include <string>

@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "solvers/bring_to_disk.h"
+
 namespace sluice {
 namespace {
 
@@ -110,6 +112,7 @@ void write_whole(const fs::path& path, Fill fill) {
     fs::remove(temporary, error);
     fail(path, "cannot be written to the end: is the disk full?");
   }
+  bring_to_disk(temporary);
   fs::rename(temporary, path, error);
   if (error) fail(path, "cannot be written: " + error.message());
 }
@@ -273,6 +276,7 @@ fs::path SnapshotWriter::write(const ParticleSnapshot& snapshot) {
   const fs::path file = fs::path("snapshots") / fmt::format("particles_{:04}.vtp", entries_.size());
   write_vtp(run_directory_ / file, snapshot);
   entries_.push_back({snapshot.time_s, file});
+  bring_to_disk(run_directory_ / "snapshots");
   write_pvd(run_directory_ / "snapshots.pvd", entries_);
   return run_directory_ / file;
 }

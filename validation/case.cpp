@@ -185,4 +185,11 @@ Case load_case(const std::string& name_or_path) {
   return parse_case(read_text(file, "give the name of a case or the path of its TOML file"), file.string());
 }
 
+std::string outside_case_file(const Case& c) {
+  std::error_code error;
+  const std::filesystem::path own = case_directory() / (c.name + ".toml");
+  if (std::filesystem::equivalent(own, c.file, error)) return "";
+  return std::filesystem::absolute(c.file).lexically_normal().string();
+}
+
 }  // namespace sluice

@@ -236,6 +236,9 @@ SceneDescription scene_description(const Case& c, double l0_m, int wall_layers);
 /// TOML file. Throws CaseError; for an unknown name the message lists those that exist.
 Case load_case(const std::string& name_or_path);
 
+/// The absolute path of a case that is none of the project's own; empty for those, which are found by their names.
+std::string outside_case_file(const Case& c);
+
 /// Reads a case from text; `file` is what messages call it.
 Case parse_case(std::string_view text, const std::string& file);
 

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "solvers/bring_to_disk.h"
 #include "solvers/state_archive.h"
 #include "validation/file_error.h"
 
@@ -186,12 +187,6 @@ void write_file(const fs::path& file, std::span<const std::byte> image) {
   if (::fsync(out.id()) != 0) fail_with_cause(file, "cannot be brought to disk");
 }
 
-/// A rename is on disk when its folder is.
-void bring_folder_to_disk(const fs::path& folder) {
-  const Descriptor in(folder, O_RDONLY | O_CLOEXEC);
-  if (in.id() < 0 || ::fsync(in.id()) != 0) fail_with_cause(folder, "cannot be brought to disk");
-}
-
 std::string text_of(const FileArchive& archive, const std::string& name) {
   const Handle set = archive.open<char>(name);
   std::string text(archive.length<char>(set), ' ');
@@ -223,7 +218,7 @@ void write_checkpoint(const fs::path& file, const nlohmann::json& header, Solver
   try {
     write_file(part, file_image(file, header, solver));
     fs::rename(part, file);
-    bring_folder_to_disk(fs::absolute(file).parent_path());
+    bring_to_disk(fs::absolute(file).parent_path());  // a rename is there when its folder is
   } catch (...) {
     std::error_code ignored;
     fs::remove(part, ignored);

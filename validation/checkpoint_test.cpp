@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -13,7 +14,9 @@
 #include "validation/cli/program_test.h"
 #include "validation/fake_solver.h"
 #include "validation/run.h"
+#include "validation/run_cost.h"
 #include "validation/run_directory.h"
+#include "validation/run_manifest.h"
 
 namespace sluice {
 namespace {
@@ -161,8 +164,9 @@ class ResumeTest : public CheckpointTest {
     options.factory = factory;
     return run_case(c, resolve_settings(c, request), options);
   }
-  RunOutcome resume(const fs::path& out) {
+  RunOutcome resume(const fs::path& out, int threads = 0) {
     ResumeOptions options;
+    options.threads = threads;
     options.factory = factory;
     return resume_run(out, options);
   }
@@ -225,6 +229,30 @@ TEST_F(ResumeTest, ComesOutAsInOneGo) {
   EXPECT_EQ(record.number("particle_steps_per_s").has_value(), true);
   EXPECT_NEAR(*record.number("phases.sums"), 1.5, 1e-9) << "half a second in each of three parts";
   EXPECT_EQ(record.snapshots().size(), 6U);
+  EXPECT_EQ(record.manifest.at("legs").size(), 3U);
+  EXPECT_EQ(difference_of_legs(record.manifest), "");
+}
+
+// Its time is that of neither number of threads, and who reads the results must know.
+TEST_F(ResumeTest, TellsWhatComputedItsParts) {
+  EXPECT_EQ(run(directory / "whole").status, "finished");
+  const fs::path parts = directory / "parts";
+  std::int64_t stop_at = 30;
+  trouble = [&](FakeSolver& solver) {
+    if (solver.steps() == stop_at) std::raise(SIGTERM);
+  };
+  run(parts);
+  stop_at = 60;
+  resume(parts, 2);
+  stop_at = -1;
+  EXPECT_EQ(resume(parts).status, "finished");
+  const auto manifest = read_run(parts).manifest;
+  const std::string difference = "gone on with by another threads (1, then 2)";
+  EXPECT_EQ(difference_of_legs(manifest), difference);
+  EXPECT_EQ(std::count(manifest.at("warnings").begin(), manifest.at("warnings").end(), difference), 1) << manifest;
+  EXPECT_EQ(manifest.at("legs").at(1).at("threads"), 2);
+  EXPECT_NEAR(manifest.at("legs").at(1).at("from_s").get<double>(), 31 * 4e-4, 1e-9);
+  EXPECT_EQ(run_costs({directory / "whole", parts}).size(), 1U);
 }
 
 TEST_F(ResumeTest, RowsBehindTheCheckpointAreCutOff) {

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "solvers/bring_to_disk.h"
 #include "validation/series.h"
 
 namespace sluice {
@@ -116,6 +117,11 @@ void ProbeWriter::flush() {
   write_buffer();
   buffer_.clear();
   last_flush_ = std::chrono::steady_clock::now();
+}
+
+void ProbeWriter::flush_to_disk() {
+  flush();
+  if (file_) bring_to_disk(path_);
 }
 
 void ProbeWriter::write_buffer() {

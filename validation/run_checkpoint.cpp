@@ -64,7 +64,9 @@ json to_json(const RunHeader& h) {
           {"next_snapshot", p.next_snapshot},
           {"snapshots", p.snapshots},
           {"resumed", p.resumed},
-          {"started", p.started}};
+          {"started", p.started},
+          {"legs", p.legs},
+          {"warnings", p.warnings}};
 }
 
 RunHeader run_header_from(const json& j) {
@@ -82,6 +84,8 @@ RunHeader run_header_from(const json& j) {
   p.snapshots = j.at("snapshots");
   p.resumed = j.at("resumed");
   p.started = j.at("started");
+  p.legs = j.at("legs");
+  p.warnings = j.at("warnings");
   return h;
 }
 

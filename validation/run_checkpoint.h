@@ -18,9 +18,11 @@ struct RunPoint {
   ProbeWriter::Position probes;
   std::int64_t next_sample = 0;
   std::size_t next_snapshot = 0;
-  std::size_t snapshots = 0;  ///< written so far
-  std::int64_t resumed = 0;   ///< times
-  std::string started;        ///< when, as in run.json
+  std::size_t snapshots = 0;                          ///< written so far
+  std::int64_t resumed = 0;                           ///< times
+  std::string started;                                ///< when, as in run.json
+  nlohmann::json legs = nlohmann::json::array();      ///< as in run.json, up to here
+  nlohmann::json warnings = nlohmann::json::array();  ///< likewise
 };
 
 /// A checkpoint's header.

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "validation/manifest.h"
+#include "validation/run_manifest.h"
 
 namespace sluice {
 namespace {
@@ -26,7 +27,7 @@ std::string all_but_alpha(json parameters) {
 
 /// Throws json::exception where a key is missing or is something else.
 std::optional<RunCost> cost_of(const json& m, const std::string& machine) {
-  if (m.at("status") != "finished" || m.at("machine") != machine) return std::nullopt;
+  if (m.at("status") != "finished" || m.at("machine") != machine || !difference_of_legs(m).empty()) return std::nullopt;
   RunCost cost{
       m.at("case_hash"), m.at("solver"), m.at("walls"), all_but_alpha(m.at("parameters")), m.at("threads"),
       m.at("l0_m"),      m.at("time_s"), m.at("steps"), m.at("particles").at("fluid"),     m.at("wall_time_s")};

@@ -73,8 +73,12 @@ RunLoop::RunLoop(RunParts parts, const RunStart& start, const std::optional<RunP
     next_snapshot_ = point->next_snapshot;
     resumed_ = point->resumed + 1;
     manifest_["started"] = point->started;
+    manifest_["legs"] = point->legs;
+    for (const auto& warning : point->warnings) add_warning(warning);
   }
   manifest_["resumed"] = resumed_;
+  manifest_["legs"].push_back(leg_of(manifest_, solver_->time_s()));
+  if (const std::string text = difference_of_legs(manifest_); !text.empty()) add_warning(text);
   refresh_manifest();
 }
 
@@ -139,13 +143,8 @@ void RunLoop::write_snapshot() {
   log_.line(fmt::format("snapshot at t = {:.4f} s: {}", solver_->time_s(), file.filename().string()));
 }
 
-// A run that has ended needs no checkpoint, one that was interrupted does.
 RunOutcome RunLoop::ending() {
-  if (solver_->time_s() >= settings_.t_end_s) {
-    std::error_code ignored;
-    std::filesystem::remove(options_.out / checkpoint_file, ignored);
-    return {"finished", "", 0};
-  }
+  if (solver_->time_s() >= settings_.t_end_s) return {"finished", "", 0};
   save_checkpoint();
   return {"interrupted", "", 128 + InterruptGuard::signal()};
 }
@@ -165,6 +164,9 @@ void RunLoop::close(RunOutcome& outcome) {
     manifest_["status"] = outcome.status;
     manifest_["error"] = outcome.error;
     write_manifest(options_.out, manifest_);
+    // A run that has ended needs no checkpoint; until run.json says so it does.
+    std::error_code ignored;
+    if (outcome.status == "finished") std::filesystem::remove(options_.out / checkpoint_file, ignored);
   });
   keep_first_error([&] {
     log_.line(progress_text(state(), settings_.t_end_s));
@@ -185,13 +187,13 @@ void RunLoop::refresh_manifest() {
   last_manifest_ = Clock::now();
 }
 
-// A checkpoint that cannot be written is no reason to stop: the one before is still there, and probes.csv will tell of
-// a full disk in its own time.
+// A checkpoint that cannot be written is no reason to stop: the one before is still there. Rows that cannot are. What a
+// checkpoint counts on must be on the disk before it.
 void RunLoop::save_checkpoint() {
   const Stopwatch watch(tally_.output_s);
   last_checkpoint_ = Clock::now();
+  probes_.flush_to_disk();
   try {
-    probes_.flush();
     bring_up_to_date();
     RunPoint point{tally_,
                    probes_.position(),
@@ -199,7 +201,9 @@ void RunLoop::save_checkpoint() {
                    next_snapshot_,
                    snapshots_.count(),
                    resumed_,
-                   manifest_.at("started").get<std::string>()};
+                   manifest_.at("started").get<std::string>(),
+                   manifest_.at("legs"),
+                   manifest_.at("warnings")};
     point.tally.earlier_phases.clear();
     for (const auto& [phase, time_s] : manifest_.at("phases").items())
       if (phase != "sensors" && phase != "output") point.tally.earlier_phases[phase] = time_s;
@@ -208,8 +212,14 @@ void RunLoop::save_checkpoint() {
     log_.line(fmt::format("checkpoint at t = {:.6f} s, step {}", solver_->time_s(), solver_->steps()));
   } catch (const std::exception& error) {
     log_.line(fmt::format("warning: no checkpoint: {}", error.what()));
-    manifest_["warnings"].push_back(fmt::format("no checkpoint at t = {:.4f} s: {}", solver_->time_s(), error.what()));
+    add_warning(fmt::format("no checkpoint at t = {:.4f} s: {}", solver_->time_s(), error.what()));
   }
+}
+
+// Told once, however often a run goes on.
+void RunLoop::add_warning(const std::string& text) {
+  auto& warnings = manifest_["warnings"];
+  if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
 }
 
 // The particles as a failed step left them, so that the failure can be looked into.

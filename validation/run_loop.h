@@ -55,6 +55,7 @@ class RunLoop {
   void bring_up_to_date();
   void refresh_manifest();
   void save_checkpoint();
+  void add_warning(const std::string& text);
   void keep_state();
   std::string step_text() const;
   RunState state() const;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "validation/manifest.h"
 #include "validation/measurements.h"
 #include "validation/solver_factory.h"
@@ -68,6 +71,7 @@ json start_manifest(const Case& c, const RunSettings& settings, const Scene& sce
   json m;
   m["schema"] = manifest_schema;
   m["case"] = c.name;
+  if (const std::string file = outside_case_file(c); !file.empty()) m["case_file"] = file;
   m["solver"] = settings.solver;
   m["walls"] = settings.walls;
   m["l0_m"] = settings.l0_m;
@@ -85,6 +89,27 @@ json start_manifest(const Case& c, const RunSettings& settings, const Scene& sce
   put_scene(m, scene);
   put_sensors(m, sensors);
   return m;
+}
+
+json leg_of(const json& m, double from_s) {
+  return {{"from_s", from_s},       {"commit", m.at("commit")},   {"compiler", m.at("compiler")},
+          {"flags", m.at("flags")}, {"machine", m.at("machine")}, {"threads", m.at("threads")}};
+}
+
+std::string difference_of_legs(const json& m) {
+  const auto legs = m.find("legs");
+  if (legs == m.end() || !legs->is_array() || legs->empty()) return "";
+  std::string text;
+  for (const char* key : {"commit", "compiler", "flags", "machine", "threads"}) {
+    const auto value = [&](const json& leg) { return leg.is_object() && leg.contains(key) ? leg[key] : json(); };
+    const bool differ =
+        std::any_of(legs->begin(), legs->end(), [&](const json& leg) { return value(leg) != value(legs->front()); });
+    if (!differ) continue;
+    const auto shown = [](const json& v) { return v.is_string() ? v.get<std::string>() : v.dump(); };
+    text += fmt::format("{}{} ({}, then {})", text.empty() ? "" : ", ", key, shown(value(legs->front())),
+                        shown(value(legs->back())));
+  }
+  return text.empty() ? "" : "gone on with by another " + text;
 }
 
 void update_manifest(json& m, const Solver& solver, const RunTally& tally) {

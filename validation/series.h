@@ -96,6 +96,8 @@ class ProbeWriter {
   /// full.
   void append(double t_s, std::span<const double> values);
   void flush();
+  /// Flushes, and returns when all of it would survive a power cut.
+  void flush_to_disk();
   /// After a flush: where the file stands.
   Position position() const { return {bytes_on_disk_, rows_, last_t_s_}; }
   /// Flushes and closes; the destructor does the same but cannot report an error.

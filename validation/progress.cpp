@@ -17,6 +17,11 @@ constexpr double plain_share = 0.05;
 
 }  // namespace
 
+void tell(std::FILE* stream, const std::string& text) {
+  std::fputs(text.c_str(), stream);  // fmt::print would throw
+  std::fflush(stream);
+}
+
 std::string progress_text(const RunState& state, double t_end_s) {
   const double rate = state.elapsed_s > 0 ? state.particle_steps / state.elapsed_s : 0;
   const double left_s = state.time_s > 0 ? state.elapsed_s * (t_end_s - state.time_s) / state.time_s : HUGE_VAL;
@@ -31,8 +36,7 @@ std::string Progress::update(const RunState& state) {
   if (stream_ != nullptr && terminal_ && state.elapsed_s - last_terminal_s_ >= terminal_interval_s) {
     last_terminal_s_ = state.elapsed_s;
     // Blanks at the end cover what a longer line left behind.
-    fmt::print(stream_, "\r{:<100}", progress_text(state, t_end_s_));
-    std::fflush(stream_);
+    tell(stream_, fmt::format("\r{:<100}", progress_text(state, t_end_s_)));
   }
   const double since_last_s = state.elapsed_s - last_plain_s_;
   const bool due = since_last_s >= longest_plain_interval_s ||
@@ -41,17 +45,13 @@ std::string Progress::update(const RunState& state) {
   last_plain_s_ = state.elapsed_s;
   last_plain_time_s_ = state.time_s;
   std::string text = progress_text(state, t_end_s_);
-  if (stream_ != nullptr && !terminal_) {
-    fmt::print(stream_, "{}\n", text);
-    std::fflush(stream_);
-  }
+  if (stream_ != nullptr && !terminal_) tell(stream_, text + "\n");
   return text;
 }
 
 void Progress::finish(const RunState& state) {
   if (stream_ == nullptr || !terminal_) return;
-  fmt::print(stream_, "\r{:<100}\n", progress_text(state, t_end_s_));
-  std::fflush(stream_);
+  tell(stream_, fmt::format("\r{:<100}\n", progress_text(state, t_end_s_)));
 }
 
 }  // namespace sluice

@@ -8,6 +8,10 @@
 
 namespace sluice {
 
+/// Writes for people and flushes. A terminal that has gone or a disk that is full is no reason to stop computing:
+/// errors are ignored.
+void tell(std::FILE* stream, const std::string& text);
+
 /// Where a run stands.
 struct RunState {
   double time_s = 0;

@@ -10,6 +10,7 @@
 #include "validation/interrupt.h"
 #include "validation/manifest.h"
 #include "validation/plan.h"
+#include "validation/progress.h"
 #include "validation/run_cost.h"
 #include "validation/run_lock.h"
 #include "validation/run_loop.h"
@@ -37,10 +38,7 @@ std::unique_ptr<RunLoop> begin(const Case& c, const RunSettings& settings, const
 }
 
 void say(const RunOptions& options, RunLog& log, const std::string& text) {
-  if (options.progress != nullptr) {
-    fmt::print(options.progress, "{}", text);
-    std::fflush(options.progress);
-  }
+  if (options.progress != nullptr) tell(options.progress, text);
   log.line(text);
 }
 

@@ -14,6 +14,7 @@
 #include "validation/cli/commands.h"
 #include "validation/cli/usage_error.h"
 #include "validation/plan.h"
+#include "validation/progress.h"
 #include "validation/run.h"
 #include "validation/run_cost.h"
 
@@ -100,9 +101,9 @@ int compute_all(const Campaign& campaign, const CampaignArguments& arguments, co
       results.push_back({"kept", ""});
       continue;
     }
-    fmt::print(stderr, "[{}/{}] {}; {} left of the campaign\n", i + 1, campaign.runs.size(),
-               run.directory.filename().string(),
-               human_time(remaining_s(campaign, i, arguments.force, known_costs(campaign, others))));
+    tell(stderr, fmt::format("[{}/{}] {}; {} left of the campaign\n", i + 1, campaign.runs.size(),
+                             run.directory.filename().string(),
+                             human_time(remaining_s(campaign, i, arguments.force, known_costs(campaign, others)))));
     RunOutcome outcome;
     try {
       outcome = compute(campaign, run, arguments);
@@ -183,7 +184,7 @@ int compute_and_report(const Campaign& campaign, const CampaignArguments& argume
   const int interrupted = compute_all(campaign, arguments, others, results);
   const bool all_well = print_results(campaign, results);
   if (interrupted != 0) {
-    fmt::print(stderr, "interrupted; the same command goes on\n");
+    tell(stderr, fmt::format("interrupted; the same command {}goes on\n", arguments.force ? "without --force " : ""));
     return interrupted;
   }
   if (!arguments.no_report) report_cases(campaign, out);
@@ -247,7 +248,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
   command->footer(
       "Finished runs whose inputs have not changed are kept, unfinished ones go on from their checkpoints, failed ones "
       "are\n"
-      "told and do not stop the others. Interrupted, the same command goes on.\n\n"
+      "told and do not stop the others. Interrupted, the same command goes on (without --force, which begins anew).\n\n"
       "Examples:\n"
       "  sluice campaign validation/campaigns/quick.toml --dry-run\n"
       "  sluice campaign validation/campaigns/nightly.toml --out runs/nightly\n"

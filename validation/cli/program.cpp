@@ -8,6 +8,7 @@
 
 #include "validation/cli/usage_error.h"
 #include "validation/manifest.h"
+#include "validation/progress.h"
 #include "validation/suggest.h"
 
 namespace sluice::cli {
@@ -30,7 +31,7 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
 int run_program(const ProgramText& text, AddCommands add_commands, int argc, char** argv) {
   const BuildInfo& build = build_info();
   const auto complain = [&](const std::string& message, int code) {
-    fmt::print(stderr, "{}: error: {}\n", text.name, message);
+    tell(stderr, fmt::format("{}: error: {}\n", text.name, message));
     return code;
   };
   int exit_code = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,10 @@
 #include "validation/cli/commands.h"
 #include "validation/cli/usage_error.h"
 #include "validation/manifest.h"
+#include "validation/progress.h"
 #include "validation/run.h"
+#include "validation/run_manifest.h"
+#include "validation/solver_factory.h"
 #include "validation/suggest.h"
 
 namespace sluice::cli {
@@ -56,13 +60,14 @@ bool is_current(const Case& c, const fs::path& directory) {
   const RunRecord record = read_run(directory);
   const std::string commit = record.text("commit").value_or("");
   return record.status() == "finished" && commit == build_info().commit && !commit.ends_with("-dirty") &&
-         record.text("case_hash") == c.hash;
+         record.text("case_hash") == c.hash && difference_of_legs(record.manifest).empty();
 }
 
-// Exit code of the run: 0, or what ends `validate` too.
+// Exit code of the run: 0, 1 where it failed, or that of the signal that ends `validate` too. Throws where it is
+// refused.
 int run_once(const Case& c, const ValidateArguments& arguments, const RunRequest& request, const fs::path& directory) {
   if (arguments.reuse && is_current(c, directory)) {
-    fmt::print(stderr, "{}: reused\n", directory.string());
+    tell(stderr, fmt::format("{}: reused\n", directory.string()));
     return 0;
   }
   RunOptions options;
@@ -71,7 +76,8 @@ int run_once(const Case& c, const ValidateArguments& arguments, const RunRequest
   options.progress = stderr;
   options.terminal = isatty(STDERR_FILENO) == 1;
   const RunOutcome outcome = run_case(c, resolve_settings(c, request), options);
-  if (outcome.status == "failed") fmt::print(stderr, "sluice: error: {}: {}\n", directory.string(), outcome.error);
+  if (outcome.status == "failed")
+    tell(stderr, fmt::format("sluice: error: {}: {}\n", directory.string(), outcome.error));
   return outcome.exit_code;
 }
 
@@ -109,10 +115,17 @@ bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
   return passed && judged;
 }
 
+bool is_known(const std::string& solver) {
+  const std::vector<std::string> names = solver_names();
+  return std::find(names.begin(), names.end(), solver) != names.end();
+}
+
 std::vector<RunRequest> requests(const Case& c, const ValidateArguments& arguments, const Tier& tier) {
   std::vector<RunRequest> all;
   for (const SolverOption& solver : c.solvers) {
     if (!arguments.solver.empty() && solver.name != arguments.solver) continue;
+    if (arguments.solver.empty() && !is_known(solver.name))
+      continue;  // another code's, with acceptance rows of its own
     for (const std::string& walls : walls_in_order(solver)) {
       RunRequest request;
       request.solver = solver.name;
@@ -127,24 +140,48 @@ std::vector<RunRequest> requests(const Case& c, const ValidateArguments& argumen
   return all;
 }
 
+struct Computed {
+  std::vector<fs::path> directories;  ///< of runs that can be judged and reported
+  bool any_failed = false;
+  int interrupted = 0;  ///< exit code, or 0
+};
+
+// One run that is refused (a solver's memory, say) does not keep the others from their verdict.
+Computed compute(const Case& c, const ValidateArguments& arguments, const Tier& tier) {
+  Computed computed;
+  for (const RunRequest& request : requests(c, arguments, tier)) {
+    const fs::path directory = fs::path(arguments.runs) /
+                               fmt::format("validate-{}-{}-{}-{}", tier.name, c.name, request.solver, request.walls);
+    try {
+      const int code = run_once(c, arguments, request, directory);
+      if (code > 128) {
+        computed.interrupted = code;
+        return computed;
+      }
+      computed.any_failed = computed.any_failed || code != 0;
+      if (fs::exists(directory / "probes.csv"))
+        computed.directories.push_back(directory);  // else it failed at its start
+    } catch (const std::exception& error) {
+      computed.any_failed = true;
+      tell(stderr, fmt::format("sluice: error: {}: {}\n", directory.string(), error.what()));
+    }
+  }
+  return computed;
+}
+
 int validate(const ValidateArguments& arguments) {
   const Case c = load_case(arguments.case_name);
   const Tier& tier = find_tier(c, arguments.tier);
   if (!arguments.solver.empty()) find_solver(c, arguments.solver);
-  std::vector<fs::path> directories;
-  bool any_failed = false;
-  for (const RunRequest& request : requests(c, arguments, tier)) {
-    directories.push_back(fs::path(arguments.runs) /
-                          fmt::format("validate-{}-{}-{}-{}", tier.name, c.name, request.solver, request.walls));
-    const int code = run_once(c, arguments, request, directories.back());
-    if (code > 128) return code;
-    any_failed = any_failed || code != 0;
-  }
+  const Computed computed = compute(c, arguments, tier);
+  if (computed.interrupted != 0) return computed.interrupted;
+  const std::vector<fs::path>& directories = computed.directories;
+  if (directories.empty()) throw std::runtime_error("no run left anything to judge (why is told above)");
   const bool passed = print_acceptance(c, directories);
   std::fflush(stdout);
   write_report(directories, arguments.out);
   fmt::print("report: {}\n", (fs::path(arguments.out) / "index.html").string());
-  return passed && !any_failed ? 0 : 1;
+  return passed && !computed.any_failed ? 0 : 1;
 }
 
 }  // namespace

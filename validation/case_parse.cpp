@@ -133,6 +133,13 @@ std::map<std::string, double> parse_parameters(TomlReader reader, const std::str
   return parameters;
 }
 
+/// Our own solvers read walls in one way each; another code's results may have been read in any.
+std::vector<std::string> pressure_models(const std::string& solver) {
+  const std::vector<std::string>& own = solver_names();
+  if (std::find(own.begin(), own.end(), solver) == own.end()) return models_of(SensorKind::pressure);
+  return {wall_pressure_model(solver), "kernel"};
+}
+
 WallOption parse_walls(TomlReader& reader, const SolverOption& solver, bool reads_force) {
   WallOption walls;
   walls.name = reader.text("name");
@@ -141,7 +148,7 @@ WallOption parse_walls(TomlReader& reader, const SolverOption& solver, bool read
   walls.layers = reader.integer("layers");
   if (walls.layers < 1 || walls.layers > 10)
     reader.fail("layers", fmt::format("is {}, must be 1 to 10 particle layers", walls.layers));
-  walls.pressure_model = one_of(reader, "pressure_model", models_of(SensorKind::pressure));
+  walls.pressure_model = one_of(reader, "pressure_model", pressure_models(solver.name));
   walls.wave_height_model = one_of(reader, "wave_height_model", models_of(SensorKind::wave_height));
   if (reads_force || reader.has("force_model"))
     walls.force_model = one_of(reader, "force_model", models_of(SensorKind::force));

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "validation/case.h"
+#include "validation/solver_factory.h"
 
 namespace sluice {
 namespace {
@@ -84,15 +85,17 @@ bool covers(const Box& box, const Vec3d& p) {
 
 class PressureSensor : public Sensor {
  public:
-  PressureSensor(CaseSensor sensor, std::string primary, const Scene& scene, double smoothing_length_m)
+  PressureSensor(CaseSensor sensor, std::string primary, std::string wall_model, const Scene& scene,
+                 double smoothing_length_m)
       : sensor_(std::move(sensor)),
         primary_(std::move(primary)),
+        wall_model_(std::move(wall_model)),
         face_m_(on_fitted_face(scene, sensor_.position_m, sensor_.normal)),
         offset_m_(smoothing_length_m) {}
 
   void append_columns(std::vector<std::string>& names) const override {
     names.push_back(probe_column(sensor_));
-    names.push_back(probe_column(sensor_, wall_model()));
+    names.push_back(probe_column(sensor_, wall_model_));
     names.push_back(probe_column(sensor_, "kernel"));
     names.push_back(sensor_.name + "_kernel_support_1");
   }
@@ -109,11 +112,9 @@ class PressureSensor : public Sensor {
   }
 
  private:
-  /// What the solver's wall pressure is: of the one nearest wall particle, or a mean.
-  std::string_view wall_model() const { return primary_ == "nearest" ? "nearest" : "wall"; }
-
   CaseSensor sensor_;
   std::string primary_;
+  std::string wall_model_;  ///< what the solver's wall pressure is
   Vec3d face_m_;
   double offset_m_;
 };
@@ -161,12 +162,12 @@ void require_model(const CaseSensor& sensor, const std::string& primary,
                                             sensor.name, primary, fmt::join(known, " and ")));
 }
 
-std::unique_ptr<Sensor> make_sensor(const CaseSensor& sensor, const std::string& primary, const Scene& scene,
-                                    double h) {
+std::unique_ptr<Sensor> make_sensor(const CaseSensor& sensor, const std::string& primary, const std::string& wall_model,
+                                    const Scene& scene, double h) {
   switch (sensor.kind) {
     case SensorKind::pressure:
-      require_model(sensor, primary, {"wall", "kernel", "nearest"});
-      return std::make_unique<PressureSensor>(sensor, primary, scene, h);
+      require_model(sensor, primary, {wall_model, "kernel"});
+      return std::make_unique<PressureSensor>(sensor, primary, wall_model, scene, h);
     case SensorKind::wave_height:
       require_model(sensor, primary, {"column", "top"});
       return std::make_unique<WaveHeightSensor>(sensor, primary, scene, h);
@@ -225,7 +226,8 @@ void append_totals(const FluidTotals& totals, std::vector<double>& values) {
 SensorArray::SensorArray(const Case& the_case, const Scene& scene, double smoothing_length_m, std::string_view solver,
                          std::string_view walls) {
   for (const CaseSensor& sensor : the_case.sensors)
-    sensors_.push_back(make_sensor(sensor, primary_model(the_case, sensor, solver, walls), scene, smoothing_length_m));
+    sensors_.push_back(make_sensor(sensor, primary_model(the_case, sensor, solver, walls), wall_pressure_model(solver),
+                                   scene, smoothing_length_m));
 }
 
 std::vector<std::string> SensorArray::columns() const {

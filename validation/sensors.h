@@ -1,15 +1,15 @@
 // The sensors of a case, read from a running solver by one or more models each.
 //
-// Pressure, model `kernel`: the fluid's kernel mean at a point one smoothing length h off the wall (or the offset asked
-//   for); zero where fluid fills less than minimum_kernel_support of the kernel. Its support is recorded beside it.
+// Pressure, model `kernel`: the fluid's kernel mean at a point one smoothing length h off the wall; zero where fluid
+// fills
+//   less than minimum_kernel_support of the kernel. Its support is recorded beside it.
 // Pressure, model `wall`: mean pressure of the first layer's wall particles within h of the sensor.
-// Pressure, model `nearest` (in the place of `wall`, for a solver whose walls have pressures of their own): the raw
-//   pressure of the wall particle nearest to the sensor.
+// Pressure, model `nearest` (in the place of `wall`, for a solver whose walls have pressures of their own; which of the
+//   two a solver has is wall_pressure_model()): the raw pressure of the wall particle nearest to the sensor.
 // Wave height, model `column`: the level of the first gap counted from the bed upwards.
 // Wave height, model `top`: the highest level on the probe's line that is inside fluid, spray included.
 // Velocity, model `kernel`: the fluid's kernel mean of one component at a point; zero where there is too little fluid,
-// as
-//   above.
+//   as above.
 // Force, model `acceleration`: mass times the acceleration that the fluid would give to the wall particles behind the
 //   chosen faces, in a direction (the paper's reading of WCSPH); those of the tank under the body stand in for its
 //   foot.

@@ -287,13 +287,15 @@ TEST(SensorArray, TotalsOfTheFluidStandBehindTheSensors) {
 
 TEST(SensorArray, NamesASensorWhoseModelIsUnknown) {
   Case c = small_case();
-  c.solvers[0].walls[0].pressure_model = "mean";
-  try {
-    const SensorArray array(c, moved_box(), h, "wcsph", "extrapolated");
-    FAIL() << "an unknown model was accepted";
-  } catch (const std::invalid_argument& e) {
-    EXPECT_NE(std::string(e.what()).find("P1"), std::string::npos) << e.what();
-    EXPECT_NE(std::string(e.what()).find("mean"), std::string::npos) << e.what();
+  for (const char* model : {"mean", "nearest"}) {
+    c.solvers[0].walls[0].pressure_model = model;
+    try {
+      const SensorArray array(c, moved_box(), h, "wcsph", "extrapolated");
+      FAIL() << "an unknown model was accepted";
+    } catch (const std::invalid_argument& e) {
+      EXPECT_NE(std::string(e.what()).find("P1"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find(model), std::string::npos) << e.what();
+    }
   }
 }
 

@@ -130,6 +130,7 @@ SolverCost mps_cost(const RunSettings& settings) {
 struct SolverEntry {
   std::string name;
   std::vector<std::string> walls;
+  std::string wall_pressure_model;
   std::vector<std::string> parameters;
   std::map<std::string, double> (*complete)(const Case&, std::map<std::string, double>);
   std::unique_ptr<Solver> (*make)(const Case&, const Scene&, const RunSettings&);
@@ -140,6 +141,7 @@ const std::vector<SolverEntry>& entries() {
   static const std::vector<SolverEntry> all{
       {"wcsph",
        {"extrapolated", "dynamic"},
+       "wall",
        {"alpha", "delta", "gamma", "courant", "kernel_radius_over_distance", "restart_interval", "speed_of_sound_m_s",
         "speed_of_sound_over_sqrt_gH", "wall_friction"},
        complete_wcsph,
@@ -147,6 +149,7 @@ const std::vector<SolverEntry>& entries() {
        wcsph_cost},
       {"mps",
        {"dummies"},
+       "nearest",
        {"effective_radius_over_distance", "viscosity_m2_s", "kappa_c_m_s2_kg", "kappa_r", "tolerated_crowding",
         "courant", "greatest_speed_m_s", "collision_over_distance", "restitution", "wall_contact_over_distance",
         "tolerance", "most_iterations", "multigrid"},
@@ -182,6 +185,11 @@ const std::vector<std::string>& solver_names() {
 std::vector<std::string> solver_parameter_names(std::string_view solver) {
   const SolverEntry* entry = find_entry(solver);
   return entry == nullptr ? std::vector<std::string>{} : entry->parameters;
+}
+
+std::string wall_pressure_model(std::string_view solver) {
+  const SolverEntry* entry = find_entry(solver);
+  return entry == nullptr ? "wall" : entry->wall_pressure_model;
 }
 
 std::map<std::string, double> complete_parameters(const Case& c, std::string_view solver,

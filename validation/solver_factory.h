@@ -21,6 +21,9 @@ const std::vector<std::string>& solver_names();
 /// Names of the numeric parameters that a solver takes; empty for an unknown solver.
 std::vector<std::string> solver_parameter_names(std::string_view solver);
 
+/// The sensor model that a solver's wall_pressure() is: "wall" (a mean; also where the solver is unknown) or "nearest".
+std::string wall_pressure_model(std::string_view solver);
+
 /// Every parameter's value for this case: given ones checked, those left out derived (the speed of sound from the
 /// water's height). Throws std::invalid_argument `key: what is wrong (remedy)`.
 std::map<std::string, double> complete_parameters(const Case& c, std::string_view solver,

@@ -194,10 +194,11 @@ ForeignMap parse_foreign_map(std::string_view text, const fs::path& map) {
   TomlReader reader(table, map.string());
   ForeignMap foreign;
   foreign.map = map;
-  foreign.case_name = reader.text("case");
   foreign.solver = reader.text("solver");
   foreign.l0_m = reader.positive_number("l0_m");
-  const Case c = load_case_for(reader, foreign.case_name);
+  const Case c = load_case_for(reader, reader.text("case"));
+  foreign.case_name = c.name;
+  foreign.case_file = outside_case_file(c);
   for (TomlReader& file : reader.tables("files")) foreign.files.push_back(parse_file(file, c, map.parent_path()));
   reader.finish();
   refuse_repeated_sensors(foreign);
@@ -239,12 +240,10 @@ void import_foreign(const ForeignMap& map, const fs::path& directory) {
     sources.push_back({{"file", f.file.filename().string()}, {"hash", file_hash(f.file)}});
   nlohmann::json warnings = nlohmann::json::array();
   if (skipped > 0) warnings.push_back(fmt::format("{} incomplete rows of its files were left out", skipped));
-  write_manifest(directory, {{"case", map.case_name},
-                             {"solver", map.solver},
-                             {"l0_m", map.l0_m},
-                             {"imported_from", sources},
-                             {"warnings", warnings},
-                             {"map_hash", file_hash(map.map)}});
+  nlohmann::json manifest{{"case", map.case_name},    {"solver", map.solver}, {"l0_m", map.l0_m},
+                          {"imported_from", sources}, {"warnings", warnings}, {"map_hash", file_hash(map.map)}};
+  if (!map.case_file.empty()) manifest["case_file"] = map.case_file;
+  write_manifest(directory, manifest);
 }
 
 }  // namespace sluice

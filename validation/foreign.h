@@ -48,6 +48,7 @@ struct ForeignFile {
 struct ForeignMap {
   std::filesystem::path map;
   std::string case_name;
+  std::string case_file;  ///< outside_case_file()
   std::string solver;
   double l0_m = 0;
   std::vector<ForeignFile> files;

@@ -1,10 +1,12 @@
 #include "validation/foreign.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "validation/case.h"
 #include "validation/run_directory.h"
 
 namespace sluice {
@@ -161,6 +163,25 @@ TEST_F(ForeignTest, GapsAreLeftOutOnRequestAndTold) {
   EXPECT_THAT(read(text).times_s(), ElementsAre(0, 0.3));
   import_foreign(load_foreign_map(directory / "m.toml"), directory / "run");
   EXPECT_EQ(read_run(directory / "run").manifest.at("warnings").at(0), "2 incomplete rows of its files were left out");
+}
+
+// As spreadsheets export them: a gauge that is not wet yet has an empty cell, the last one of its row too.
+TEST_F(ForeignTest, BetweenTabsAFieldMayBeEmptyAtTheEndsOfARow) {
+  write("a.csv", "time_s\tP1_Pa\tH2_m\n0\t1\t\n\t2\t0.2\n0.2\t3\t0.2\n0.3\t4\t0.3\t\t\n");
+  const std::string tabs = std::string("[[files]]\nseparator = \"tab\"\nskip_incomplete_rows = true\n") +
+                           (plain + std::string("[[files]]\n").size());
+  EXPECT_THAT(read(tabs).times_s(), ElementsAre(0.2, 0.3));
+}
+
+TEST_F(ForeignTest, ACaseGivenByItsPathIsRememberedByNameAndPlace) {
+  fs::copy_file(load_case("kleefsman").file, directory / "mine.toml");
+  write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0\n1,1,0\n");
+  write("m.toml",
+        fmt::format("case = \"{}\"\nsolver = \"other\"\nl0_m = 0.02\n{}", (directory / "mine.toml").string(), plain));
+  import_foreign(load_foreign_map(directory / "m.toml"), directory / "run");
+  const RunRecord record = read_run(directory / "run");
+  EXPECT_EQ(record.case_name, "kleefsman");
+  EXPECT_EQ(record.text("case_file"), (directory / "mine.toml").string());
 }
 
 TEST_F(ForeignTest, BadMapsAreRefusedByLineAndKey) {

@@ -23,10 +23,15 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::size_t longest_line = 1 << 20;  // bytes
 constexpr std::size_t longest_message = 1000;  // of what quotes a file
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(blanks);
+std::string_view trimmed(std::string_view text, std::string_view of = blanks) {
+  const auto first = text.find_first_not_of(of);
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  return text.substr(first, text.find_last_not_of(of) - first + 1);
+}
+
+/// A line without what surrounds its fields. Tabs that separate are not that: the first or last field may be empty.
+std::string_view fields_of(std::string_view line, char separator) {
+  return separator == '\t' ? trimmed(line, " \r") : trimmed(line);
 }
 
 /// Takes the first field off `rest`; `more` tells whether another follows, so that "1," has two fields.
@@ -69,7 +74,7 @@ std::unique_ptr<std::istream> open_file(const std::filesystem::path& path) {
 
 std::vector<std::string> split_fields(std::string_view line, char separator) {
   std::vector<std::string> fields;
-  auto rest = trimmed(line);
+  auto rest = fields_of(line, separator);
   for (bool more = !rest.empty(); more;) fields.emplace_back(take_field(rest, separator, more));
   return fields;
 }
@@ -167,9 +172,11 @@ bool TextTableReader::read_row(std::string_view line, const std::vector<std::str
   std::size_t count = 0;
   bool complete = true;
   row_.assign(names.size(), 0.0);
-  auto rest = trimmed(line);
+  auto rest = fields_of(line, form.separator);
   for (bool more = true; more; ++count) {
     const auto field = take_field(rest, form.separator, more);
+    const bool nothing_follows = field.empty() && trimmed(rest).empty();
+    if (count == names.size() && form.separator == '\t' && nothing_follows) break;  // tabs at the end of a row
     if (count >= names.size() || !wanted_[count]) continue;
     if (form.skip_incomplete && is_gap(field)) {
       complete = false;
@@ -206,13 +213,12 @@ std::vector<std::vector<double>> TextTableReader::read_rows(const std::vector<st
   for (const std::size_t column : form.wanted) wanted_.at(column) = true;
   bool blank_seen = false;
   while (next_line()) {
-    const std::string_view line = trimmed(line_);
-    if (line.empty()) {
+    if (trimmed(line_).empty()) {
       blank_seen = true;
       continue;
     }
     if (blank_seen) fail("a row after a blank line; delete blank lines between rows");
-    if (!read_row(line, names, form)) {
+    if (!read_row(line_, names, form)) {
       ++skipped_;
       continue;
     }

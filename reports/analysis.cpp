@@ -102,6 +102,9 @@ void note_problems(AnalysedRun& run, const ReportData& data) {
   if (record.status() == "interrupted") run.problems.push_back("interrupted before its end");
   if (record.status() == "failed")
     run.problems.push_back("failed: " + record.text("error").value_or("no reason recorded"));
+  if (const auto hash = record.text("case_hash"); hash && *hash != data.the_case.hash)
+    run.problems.push_back(fmt::format("made with another version of the case file ({}; this report reads {})", *hash,
+                                       data.the_case.hash));
   const std::vector<double>& times = record.probes.times_s();
   if (times.empty())
     run.problems.push_back("probes.csv has no rows");
@@ -127,20 +130,13 @@ bool comes_before(const RunRecord& a, const RunRecord& b) {
   return order(a) < order(b);
 }
 
-/// ", delta = 0.02" for a label.
-std::string changed_parameters_text(const RunRecord& run, const Case& c) {
-  std::string changed;
-  for (const auto& [name, value] : changed_parameters(run, c))
-    changed += fmt::format(", {} = {}", name, shortest(value));
-  return changed;
-}
-
 void name_run(AnalysedRun& run, std::size_t index, const Case& c) {
   const RunRecord& r = run.record;
   run.key = fmt::format("R{}", index + 1);
   run.group = solver_name(r) + (r.walls.empty() ? "" : ", " + r.walls + " walls");
   const std::string alpha = r.alpha() ? fmt::format("α = {}, ", shortest(*r.alpha())) : "";
-  const std::string rest = fmt::format("{}l0 {:g} mm{}", alpha, 1000 * r.l0_m, changed_parameters_text(r, c));
+  const std::string rest =
+      fmt::format("{}l0 {:g} mm{}", alpha, 1000 * r.l0_m, parameters_text(changed_parameters(r, c)));
   run.short_label = run.key + " " + rest;
   run.label = fmt::format("{} {}{}, {}", run.key, solver_name(r), r.walls.empty() ? "" : " " + r.walls, rest);
   run.directory = shown_directory(r.path);
@@ -158,6 +154,21 @@ std::vector<RunRecord> read_runs(const std::vector<std::filesystem::path>& run_d
           records.front().path.string(), records.front().case_name, record.path.string(), record.case_name));
   std::sort(records.begin(), records.end(), comes_before);
   return records;
+}
+
+/// The case file that the runs were made with: the project's own by its name, another where it was read from.
+Case case_of(const std::vector<RunRecord>& records) {
+  for (const RunRecord& record : records) {
+    const std::optional<std::string> file = record.text("case_file");
+    if (!file) continue;
+    if (std::filesystem::exists(*file)) return load_case(*file);
+    const std::vector<std::string> names = case_names();
+    if (std::find(names.begin(), names.end(), record.case_name) == names.end())
+      throw std::runtime_error(
+          fmt::format("{}: case_file: {} is not there (put the case file back, or write its new place here)",
+                      (record.path / "run.json").string(), *file));
+  }
+  return load_case(records.front().case_name);
 }
 
 }  // namespace
@@ -221,7 +232,7 @@ std::vector<std::string> ReportData::headline_sensors() const {
 ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
   std::vector<RunRecord> records = read_runs(run_directories);
   ReportData data;
-  data.the_case = load_case(records.front().case_name);
+  data.the_case = case_of(records);
   data.window = {data.the_case.window.start_s, data.the_case.window.end_s};
   data.measured = Measurements::load(data.the_case);
   for (RunRecord& record : records) {
@@ -249,6 +260,12 @@ std::map<std::string, double> changed_parameters(const RunRecord& run, const Cas
   for (const auto& [name, value] : defaults)
     if (const auto used = run.number("parameters." + name); used && *used != value) changed[name] = *used;
   return changed;
+}
+
+std::string parameters_text(const std::map<std::string, double>& parameters) {
+  std::string text;
+  for (const auto& [name, value] : parameters) text += fmt::format(", {} = {}", name, shortest(value));
+  return text;
 }
 
 std::optional<double> processor_time_s(const AnalysedRun& run) {

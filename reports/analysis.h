@@ -74,6 +74,8 @@ ReportData analyse(const std::vector<std::filesystem::path>& run_directories);
 /// What this run has set otherwise than the case, by name; without alpha, which has a place of its own everywhere.
 /// Empty for other codes.
 std::map<std::string, double> changed_parameters(const RunRecord& run, const Case& c);
+/// ", delta = 0.02" for labels and titles; empty for none.
+std::string parameters_text(const std::map<std::string, double>& parameters);
 
 /// Mean of |deviation| of the impulses over the headline sensors; missing when one of them is. `model` empty: primary.
 std::optional<double> mean_impulse_error(const ReportData& data, const AnalysedRun& run, const std::string& model = "");

@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 using program_test::Answer;
@@ -100,13 +101,17 @@ TEST_F(CommandLine, ValidateOfATooShortRunDoesNotPass) {
   const std::string quick = "l0_m = 0.03, t_end_s = 6.0";
   ASSERT_NE(text.find(quick), std::string::npos);
   text.replace(text.find(quick), quick.size(), "l0_m = 0.03, t_end_s = 0.005");
+  const std::string title = "Dam break against a box";
+  text.replace(text.find(title), title.size(), "A case of my own");
   std::ofstream(directory / "short.toml") << text;
   const Answer answer =
       sluice(fmt::format("validate {0}/short.toml --threads 1 --runs {0}/runs --out {0}/report", directory.string()));
   EXPECT_EQ(answer.exit_code, 1) << answer.err;
   EXPECT_THAT(answer.out, AllOf(HasSubstr("impulse_deviation P1 wall"), HasSubstr("missing (the run ends at 0.00"),
                                 HasSubstr("A BAND IS MISSED"), HasSubstr("for comparison only")));
-  EXPECT_TRUE(fs::exists(directory / "report" / "index.html"));
+  EXPECT_THAT(contents(directory / "report" / "index.html"),
+              AllOf(HasSubstr("A case of my own"), Not(HasSubstr("another version of the case file"))))
+      << "the report reads the file that the runs were made with";
 }
 
 TEST_F(CommandLine, AnInterruptedRunKeepsItsResults) {

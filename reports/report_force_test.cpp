@@ -1,4 +1,5 @@
 // Reports on cases with forces: measured ones, and one whose measurement a user has to supply.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -145,7 +146,7 @@ TEST(ForceTables, LengthsThatSourcesLeaveOpenHaveTheirTableAndAreNoResolutionOrA
   run.case_name = "aureli";
   run.l0_m = 0.02;
   synthetic::write_force_run(far, run);
-  run.placements = {{"block_distance_m", 0.45}};
+  run.parameters = {{"block_distance_m", 0.45}};
   run.shift_s = -0.05;
   run.alpha = 0.1;
   synthetic::write_force_run(near, run);
@@ -164,6 +165,32 @@ TEST(ForceTables, LengthsThatSourcesLeaveOpenHaveTheirTableAndAreNoResolutionOrA
     const double at_m = placed_at_m(data.the_case.placements.front(), r.record);
     EXPECT_NEAR(placed_obstacles(data.the_case, r.record).back().box.upper.x, drawn_m + 0.51 - at_m, 1e-12);
   }
+}
+
+TEST(ForceTables, RunsOfOtherParametersAreNoResolutionAlphaOrWallStudy) {
+  MadeForceRun run;
+  std::vector<fs::path> directories;
+  for (const double l0_m : {0.02, 0.0125, 0.01}) {
+    run.l0_m = l0_m;
+    directories.push_back(fresh(fmt::format("force_method_{}", l0_m)));
+    synthetic::write_force_run(directories.back(), run);
+  }
+  const auto all = resolution_series(analyse(directories));
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].runs.size(), 3u);
+
+  run.l0_m = 0.0125;
+  run.parameters = {{"delta", 0.02}};
+  synthetic::write_force_run(directories[1], run);
+  run.alpha = 0.1;
+  run.parameters = {};
+  directories.push_back(fresh("force_method_alpha"));
+  synthetic::write_force_run(directories.back(), run);
+  const ReportData data = analyse(directories);
+  const auto alike = resolution_series(data);
+  ASSERT_EQ(alike.size(), 1u);
+  EXPECT_EQ(alike[0].runs.size(), 2u);
+  EXPECT_TRUE(alpha_series(data).empty()) << "delta differs as well";
 }
 
 /// A working directory with a user's file in it, as in a clone.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "reports/text.h"
 
@@ -18,12 +19,15 @@ bool same_end(const RunRecord& a, const RunRecord& b) {
   return a.number("t_end_s") == b.number("t_end_s");
 }
 
-bool same_places(const ReportData& data, const RunRecord& a, const RunRecord& b, const Placement* but = nullptr) {
-  return std::all_of(data.the_case.placements.begin(), data.the_case.placements.end(),
-                     [&](const Placement& p) { return &p == but || placed_at_m(p, a) == placed_at_m(p, b); });
+/// What a run was given otherwise than the case has it: neither alpha, nor what its wall model brings with itself, nor
+/// the placement `but`.
+std::map<std::string, double> changes(const ReportData& data, const RunRecord& run, const Placement* but = nullptr) {
+  std::map<std::string, double> changed = changed_parameters(run, data.the_case);
+  if (but != nullptr) changed.erase(but->name);
+  return changed;
 }
 
-/// Sorts runs into lists by a criterion of likeness, keeping lists in which `differs` is met at least once.
+/// Sorts runs into lists by a criterion of likeness.
 template <class Alike>
 std::vector<std::vector<const AnalysedRun*>> group_alike(const ReportData& data, Alike alike) {
   std::vector<std::vector<const AnalysedRun*>> groups;
@@ -47,7 +51,7 @@ std::vector<std::pair<const AnalysedRun*, const AnalysedRun*>> wall_pairs(const 
       const RunRecord& a = data.runs[i].record;
       const RunRecord& b = data.runs[j].record;
       if (a.solver == b.solver && a.l0_m == b.l0_m && same_alpha(a, b) && same_end(a, b) && a.walls != b.walls &&
-          !a.walls.empty() && !b.walls.empty() && same_places(data, a, b))
+          !a.walls.empty() && !b.walls.empty() && changes(data, a) == changes(data, b))
         pairs.emplace_back(&data.runs[i], &data.runs[j]);
     }
   return pairs;
@@ -57,13 +61,15 @@ std::vector<AlphaSeries> alpha_series(const ReportData& data) {
   std::vector<AlphaSeries> out;
   for (auto& runs : group_alike(data, [&](const RunRecord&a, const RunRecord&b) {
          return a.solver == b.solver && a.walls == b.walls && a.l0_m == b.l0_m && same_end(a, b) &&
-                same_places(data, a, b);
+                changes(data, a) == changes(data, b);
        })) {
     std::erase_if(runs, [](const AnalysedRun* run) { return !run->record.alpha(); });
     std::stable_sort(runs.begin(), runs.end(),
                      [](auto* a, auto* b) { return *a->record.alpha() < *b->record.alpha(); });
     if (runs.size() < 2 || same_alpha(runs.front()->record, runs.back()->record)) continue;
-    out.push_back({fmt::format("{}, l0 = {:g} mm", runs.front()->group, 1000 * runs.front()->record.l0_m), runs});
+    out.push_back({fmt::format("{}, l0 = {:g} mm{}", runs.front()->group, 1000 * runs.front()->record.l0_m,
+                               parameters_text(changes(data, runs.front()->record))),
+                   runs});
   }
   return out;
 }
@@ -72,7 +78,7 @@ std::vector<ResolutionSeries> resolution_series(const ReportData& data) {
   std::vector<ResolutionSeries> out;
   for (auto& runs : group_alike(data, [&](const RunRecord&a, const RunRecord&b) {
          return a.solver == b.solver && a.walls == b.walls && same_alpha(a, b) && same_end(a, b) &&
-                same_places(data, a, b);
+                changes(data, a) == changes(data, b);
        })) {
     std::stable_sort(runs.begin(), runs.end(), [](auto* a, auto* b) { return a->record.l0_m > b->record.l0_m; });
     // Of two runs at one resolution the first stands for it: an order needs one value each.
@@ -80,7 +86,9 @@ std::vector<ResolutionSeries> resolution_series(const ReportData& data) {
                runs.end());
     if (runs.size() < 2) continue;
     const auto alpha = runs.front()->record.alpha();
-    out.push_back({runs.front()->group + (alpha ? fmt::format(", α = {}", shortest(*alpha)) : ""), runs});
+    out.push_back({runs.front()->group + (alpha ? fmt::format(", α = {}", shortest(*alpha)) : "") +
+                       parameters_text(changes(data, runs.front()->record)),
+                   runs});
   }
   return out;
 }
@@ -100,7 +108,7 @@ std::vector<PlacementSeries> placement_series(const ReportData& data) {
   for (const Placement& placement : data.the_case.placements)
     for (auto& runs : group_alike(data, [&](const RunRecord&a, const RunRecord&b) {
            return a.solver == b.solver && a.walls == b.walls && a.l0_m == b.l0_m && same_alpha(a, b) &&
-                  same_end(a, b) && same_places(data, a, b, &placement);
+                  same_end(a, b) && changes(data, a, &placement) == changes(data, b, &placement);
          })) {
       std::stable_sort(runs.begin(), runs.end(), [&](auto* a, auto* b) {
         return placed_at_m(placement, a->record) < placed_at_m(placement, b->record);
@@ -110,8 +118,9 @@ std::vector<PlacementSeries> placement_series(const ReportData& data) {
         continue;
       const auto alpha = runs.front()->record.alpha();
       out.push_back({placement.name,
-                     fmt::format("{}, l0 = {:g} mm{}", runs.front()->group, 1000 * runs.front()->record.l0_m,
-                                 alpha ? fmt::format(", α = {}", shortest(*alpha)) : ""),
+                     fmt::format("{}, l0 = {:g} mm{}{}", runs.front()->group, 1000 * runs.front()->record.l0_m,
+                                 alpha ? fmt::format(", α = {}", shortest(*alpha)) : "",
+                                 parameters_text(changes(data, runs.front()->record, &placement))),
                      runs});
     }
   return out;

@@ -1,4 +1,5 @@
-// Which runs differ in one thing only: in their walls, in alpha, or in the particle distance.
+// Which runs differ in one thing only: in their walls, in alpha, in the particle distance, or in a placement. Runs
+// whose other parameters differ are never set side by side as such.
 #pragma once
 
 #include <optional>
@@ -10,7 +11,7 @@
 
 namespace sluice {
 
-/// Pairs of runs alike in solver, l0, alpha and end, with different wall models.
+/// Pairs of runs alike in all but their wall models.
 std::vector<std::pair<const AnalysedRun*, const AnalysedRun*>> wall_pairs(const ReportData& data);
 
 /// Runs alike in all but alpha, at least two of them, smallest alpha first.

@@ -146,7 +146,7 @@ json force_manifest(const MadeForceRun& run, const Case& c, double t_end_s) {
                    {"time_s", t_end_s},
                    {"lost", {{"through_walls", 0}, {"over_top", 0}}}});
   if (run.solver == "mps") manifest.erase("alpha");
-  for (const auto& [name, value] : run.placements) manifest["parameters"][name] = value;
+  for (const auto& [name, value] : run.parameters) manifest["parameters"][name] = value;
   for (const CaseSensor& sensor : c.sensors)
     manifest["sensors"][sensor.name] = {{"primary", primary_model(c, sensor, run.solver, run.walls)}};
   return manifest;

@@ -37,8 +37,8 @@ struct MadeForceRun {
   double scale = 1.0;         ///< of the primary route and of velocities
   double second_scale = 0.9;  ///< of the other route
   double shift_s = 0.0;
-  double noise_N = 0.0;  ///< a fixed 90 Hz tone on forces
-  std::map<std::string, double> placements{};
+  double noise_N = 0.0;                        ///< a fixed 90 Hz tone on forces
+  std::map<std::string, double> parameters{};  ///< otherwise than in the case
 };
 void write_force_run(const std::filesystem::path& directory, const MadeForceRun& run);
 

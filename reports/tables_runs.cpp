@@ -109,15 +109,16 @@ void add_published_run(Table& table, const PublishedRun& run) {
              {significant(run.fluid_particles * steps / run.cpu_time_s, 2) + "*",
               run.fluid_particles * steps / run.cpu_time_s, Tone::plain},
              not_applicable("not printed"),
-             not_applicable("20")});
+             not_applicable("not printed")});
 }
 
 void add_published_notes(Table& table, const Published& published) {
   if (!published.runs.empty())
     table.notes.push_back(
         fmt::format("The paper's rows are as printed (CPU: {}); * derived here from its printed particle count, time "
-                    "step and time. "
-                    "Processing times of different machines do not compare as they are: see Provenance for ours.",
+                    "step and time. It prints no number of threads, and does not say whether its time is that of the "
+                    "clock or summed over the processor's cores. Processing times of different machines do not compare "
+                    "as they are: see Provenance for ours.",
                     published.cpu));
   for (const PublishedRun& run : published.runs) {
     const std::string name = fmt::format("The paper's {}, l0 = {:g} mm", published_name(run), 1000 * run.l0_m);

@@ -14,6 +14,7 @@
 #include "reports/analysis.h"
 #include "validation/acceptance.h"
 #include "validation/file_hash.h"
+#include "validation/run_manifest.h"
 
 namespace sluice::ci {
 namespace {
@@ -84,6 +85,14 @@ nlohmann::json parameters_of(const RunRecord& run, const Case& c) {
   return parameters;
 }
 
+/// What tells a run from all others. A manifest of this project says when the run was begun; that of another code may
+/// be the same line for line every night, so that its results, its commit and its date belong to the name.
+std::string name_of(const RunRecord& run, const Provenance& given) {
+  const std::string manifest = file_hash(run.path / "run.json");
+  if (run.own) return short_hash(manifest);
+  return short_hash(text_hash(manifest + file_hash(run.path / "probes.csv") + given.commit + given.date));
+}
+
 Result common_of(const RunRecord& run, const Case& c, const Provenance& given) {
   const auto stated = [&](const char* key) { return run.text(key).value_or(""); };
   const std::string cpu = stated("cpu");
@@ -100,7 +109,7 @@ Result common_of(const RunRecord& run, const Case& c, const Provenance& given) {
   common.case_name = run.case_name;
   common.solver = run.solver;
   common.parameters = parameters_of(run, c);
-  common.run = short_hash(file_hash(run.path / "run.json"));
+  common.run = name_of(run, given);
   common.link = given.link.empty() ? run.path.lexically_normal().generic_string() : given.link;
   if (!is_date(common.date))
     throw std::runtime_error(fmt::format("{}: `{}` is no date such as 2026-11-25T09:34:08Z (give --date)",
@@ -112,22 +121,32 @@ std::string reading_name(const std::string& sensor, const std::string& model) {
   return model.empty() ? sensor : sensor + " " + model;
 }
 
-/// A run that was asked to end before a window does owes no value there.
-bool owes_window_of(const RunRecord& run, const Case& c, const std::string& sensor) {
+double window_end_s(const Case& c, const std::string& sensor) {
   const CaseSensor* known = c.find_sensor(sensor);
-  const double window_end_s = known != nullptr ? comparison_window(c, *known).end_s : c.window.end_s;
+  return known != nullptr ? comparison_window(c, *known).end_s : c.window.end_s;
+}
+
+/// A run that was asked to end before a window does owes no value there.
+bool owes(const RunRecord& run, const Case& c, double end_s) {
   const auto asked_end_s = run.number("t_end_s");
-  return !asked_end_s || *asked_end_s + 2 / c.output_rate_Hz >= window_end_s;
+  return !asked_end_s || *asked_end_s + 2 / c.output_rate_Hz >= end_s;
+}
+
+/// A row that looks at a window of its own is another series than the reading over the sensor's.
+std::string accepted_name(const AcceptanceRow& row, const AnalysedRun& run) {
+  const SensorReading* primary = row.model.empty() ? run.primary(row.sensor) : nullptr;
+  const std::string name = reading_name(row.sensor, primary != nullptr ? primary->model : row.model);
+  return row.window ? fmt::format("{} {}", name, window_text(*row.window)) : name;
 }
 
 void add_accuracy(Collector& collector, const ReportData& data, const AnalysedRun& run) {
   const auto mean_error = mean_impulse_error(data, run);
-  if (!data.headline_sensors().empty() && (mean_error || owes_window_of(run.record, data.the_case, "")))
+  if (!data.headline_sensors().empty() && (mean_error || owes(run.record, data.the_case, data.window.end_s)))
     collector.add("mean_impulse_error", "", mean_error, "1", "a headline sensor has no impulse deviation");
   for (const SensorReading& reading : run.readings) {
     if (!reading.primary || data.measured_series(reading.sensor) == nullptr) continue;
     const std::vector<std::string>& remarks = reading.comparison.remarks;
-    const bool owed = owes_window_of(run.record, data.the_case, reading.sensor);
+    const bool owed = owes(run.record, data.the_case, window_end_s(data.the_case, reading.sensor));
     for (const std::string_view metric : tracked_metrics(reading.kind)) {
       const auto value = sensor_metric(metric, reading.comparison);
       if (value || owed)
@@ -136,13 +155,11 @@ void add_accuracy(Collector& collector, const ReportData& data, const AnalysedRu
     }
   }
   for (const AcceptanceCheck& check : run.acceptance) {
+    const AcceptanceRow& row = check.row;
     if (check.verdict == AcceptanceVerdict::not_applicable) continue;
-    if (!check.value && !owes_window_of(run.record, data.the_case, check.row.sensor)) continue;
-    std::string model = check.row.model;
-    if (const SensorReading* primary = run.primary(check.row.sensor); model.empty() && primary != nullptr)
-      model = primary->model;
-    collector.add(check.row.metric, reading_name(check.row.sensor, model), check.value,
-                  unit_of_metric(check.row.metric), check.reason);
+    const double end_s = row.window ? row.window->end_s : window_end_s(data.the_case, row.sensor);
+    if (!check.value && !owes(run.record, data.the_case, end_s)) continue;
+    collector.add(row.metric, accepted_name(row, run), check.value, unit_of_metric(row.metric), check.reason);
   }
   for (const AcceptanceMetric& metric : acceptance_metrics())
     if (!metric.needs_sensor) collector.add_if_stated(metric.name, run_metric(metric.name, run.record), metric.unit);
@@ -186,6 +203,10 @@ std::vector<Result> results_of_run(const fs::path& directory, const Provenance& 
   if (status == "running")
     throw std::runtime_error(fmt::format("{}: the run is still going on, or was killed (finish it: sluice resume {})",
                                          directory.string(), directory.string()));
+  if (const std::string difference = difference_of_legs(run.record.manifest); !difference.empty())
+    throw std::runtime_error(
+        fmt::format("{}: the run was {}: its results belong to no single one (compute it anew: sluice run ... --force)",
+                    directory.string(), difference));
   Collector collector(common_of(run.record, data.the_case, given));
   const bool finished = status.empty() || status == "finished";
   if (!status.empty()) collector.add("finished", "", finished ? 1 : 0, "1");

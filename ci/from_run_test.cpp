@@ -7,6 +7,7 @@
 
 #include "ci/history.h"
 #include "reports/synthetic_run.h"
+#include "validation/acceptance.h"
 #include "validation/manifest.h"
 
 namespace sluice::ci {
@@ -88,6 +89,26 @@ TEST_F(FromRunTest, EveryMetricIsKnownAndHasOneResult) {
   }
 }
 
+// Not every run has every metric: one that the ledger did not know would go without an alarm.
+TEST(FromRun, EveryMetricOfAcceptanceIsOneOfAccuracyThatAlarms) {
+  for (const AcceptanceMetric& metric : acceptance_metrics()) {
+    EXPECT_EQ(kind_of(metric.name).name, metric.name);
+    EXPECT_EQ(kind_of(metric.name).family, Family::accuracy) << metric.name;
+    EXPECT_TRUE(kind_of(metric.name).alarms) << metric.name;
+  }
+}
+
+// Both windows end within the run; a series of one would hide what the case is accepted by.
+TEST_F(FromRunTest, AnAcceptanceRowWithAWindowOfItsOwnIsASeriesOfItsOwn) {
+  synthetic::write_force_run(directory, {.scale = 1.1});
+  const auto results = results_of_run(directory, {.commit = "v2", .date = "2026-11-25T00:00:00Z", .machine = "m"});
+  const Result* whole = find(results, "impulse_deviation", "F_column acceleration");
+  const Result* window = find(results, "impulse_deviation", "F_column acceleration 0.3 .. 1.3 s");
+  ASSERT_NE(whole, nullptr);
+  ASSERT_NE(window, nullptr);
+  EXPECT_NEAR(window->value.value(), 0.1, 0.01);
+}
+
 TEST_F(FromRunTest, WhatARunSetsOtherwiseThanTheCaseTellsItApart) {
   write({}, {{"parameters", {{"delta", 0.02}}}});
   EXPECT_EQ(results_of_run(directory).front().parameters.value("delta", 0.0), 0.02);
@@ -147,6 +168,20 @@ TEST_F(FromRunTest, AnotherCodesRunNeedsWhatItsFileDoesNotSay) {
   EXPECT_EQ(impulse->commit, "v2");
   EXPECT_EQ(find(results, "cpu_time_s"), nullptr);
   EXPECT_EQ(find(results, "finished"), nullptr);
+}
+
+// Its three lines of run.json are the same every night.
+TEST_F(FromRunTest, EveryNightOfAnotherCodeIsARunOfItsOwn) {
+  const auto name = [&](const std::string& commit, const std::string& date) {
+    return results_of_run(directory, {.commit = commit, .date = date, .machine = "m"}).front().run;
+  };
+  synthetic::write_external_run(directory, 1.2);
+  const std::string first = name("v2", "2026-11-25T00:00:00Z");
+  EXPECT_EQ(name("v2", "2026-11-25T00:00:00Z"), first);
+  EXPECT_NE(name("v3", "2026-11-25T00:00:00Z"), first);
+  EXPECT_NE(name("v2", "2026-11-26T00:00:00Z"), first);
+  synthetic::write_external_run(directory, 1.3);
+  EXPECT_NE(name("v2", "2026-11-25T00:00:00Z"), first);
 }
 
 TEST_F(FromRunTest, ARunHasItsOwnName) {

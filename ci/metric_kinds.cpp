@@ -43,6 +43,7 @@ std::vector<MetricKind> make_kinds() {
       accuracy("share_inside_band", larger, 0.02, "share of the time inside the measured band"),
       accuracy("lost_through_walls", smaller, 0.5, "fluid particles that passed a wall"),
       accuracy("lost_over_top_share", smaller, 0.002, "fluid particles that left over the top / all at the start"),
+      accuracy("number_density_max_over_n0", smaller, 0.05, "MPS: number density of the densest particle"),
       accuracy("fluid_volume_deviation", nearest_zero, 1e-4, "volume on the lattice against nominal, at the start"),
       early("kinetic_energy_share", 5e-4, "kinetic energy at 1.2 sqrt(H/g) / potential energy at the start"),
       early("energy_lost_share", 5e-4, "energy lost / potential energy at the start, mean up to 1.2 sqrt(H/g)"),

@@ -162,11 +162,15 @@ bool all_passed(const std::vector<AcceptanceCheck>& checks) {
   return any;
 }
 
+std::string window_text(const TimeWindow& window) {
+  return fmt::format("{:g} .. {:g} s", window.start_s, window.end_s);
+}
+
 std::string acceptance_name(const AcceptanceRow& row) {
   std::string name = row.metric;
   if (!row.sensor.empty()) name += " " + row.sensor;
   if (!row.model.empty()) name += " " + row.model;
-  if (row.window) name += fmt::format(" {:g} .. {:g} s", row.window->start_s, row.window->end_s);
+  if (row.window) name += fmt::format(" {}", window_text(*row.window));
   return name;
 }
 

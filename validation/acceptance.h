@@ -46,6 +46,8 @@ bool all_passed(const std::vector<AcceptanceCheck>& checks);
 /// "impulse_deviation P1 wall" or "impulse_deviation F 0.3 .. 1.3 s", and a value or bound for people ("+4.0 %", "+15
 /// ms", "3").
 std::string acceptance_name(const AcceptanceRow& row);
+/// "0.3 .. 1.3 s".
+std::string window_text(const TimeWindow& window);
 std::string acceptance_value_text(const AcceptanceRow& row, double value);
 std::string acceptance_band_text(const AcceptanceRow& row);
 

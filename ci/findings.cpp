@@ -51,15 +51,21 @@ void match_acceptances(SeriesFindings& found, const std::string& id, const Ledge
   }
 }
 
-State state_of(const Finding& finding, const MetricKind& kind, double level_now) {
+/// Whether a level is that from before the finding, or better.
+bool has_come_back(const Finding& finding, Better better, double level) {
+  if (better == Better::unchanged) return std::abs(level - finding.shift.before) < finding.shift.threshold / 2;
+  return badness(better, level) < badness(better, finding.shift.before) + finding.shift.threshold / 2;
+}
+
+/// `levels`: those that the series has had since, the finding's own first.
+State state_of(const Finding& finding, const MetricKind& kind, std::span<const double> levels) {
   const bool harmless = finding.verdict == Verdict::moved && kind.better != Better::unchanged;
   if (!kind.alarms || finding.verdict == Verdict::better || harmless) return State::note;
   if (finding.acceptance != nullptr) return State::accepted;
   if (finding.verdict == Verdict::missing) return State::open;
-  if (kind.better == Better::unchanged)
-    return std::abs(level_now - finding.shift.before) < finding.shift.threshold / 2 ? State::fixed : State::open;
-  const double limit = badness(kind.better, finding.shift.before) + finding.shift.threshold / 2;
-  return badness(kind.better, level_now) < limit ? State::fixed : State::open;
+  const bool fixed = std::any_of(levels.begin(), levels.end(),
+                                 [&](double level) { return has_come_back(finding, kind.better, level); });
+  return fixed ? State::fixed : State::open;
 }
 
 void add_shifts(SeriesFindings& found, const Tolerance& tolerance, const ShiftRule& rule) {
@@ -71,6 +77,17 @@ void add_shifts(SeriesFindings& found, const Tolerance& tolerance, const ShiftRu
     finding.first = found.valued[shift.first];
     found.findings.push_back(finding);
   }
+}
+
+/// The level that each shift led to: the median of the values up to the next one.
+std::vector<double> levels_of(const SeriesFindings& found) {
+  std::vector<double> levels;
+  for (std::size_t k = 0; k < found.findings.size(); ++k) {
+    const std::size_t first = found.findings[k].shift.first;
+    const std::size_t end = k + 1 < found.findings.size() ? found.findings[k + 1].shift.first : found.values.size();
+    levels.push_back(median(std::span(found.values).subspan(first, end - first)));
+  }
+  return levels;
 }
 
 /// The last points have no value, and earlier ones have.
@@ -113,11 +130,12 @@ std::vector<SeriesFindings> find_all(const Ledger& ledger, const ShiftRule& rule
     }
     const std::string id = found.series.key.id();
     add_shifts(found, tolerance_of(found.series, id, ledger), rule);
-    const std::size_t level_begin = found.findings.empty() ? 0 : found.findings.back().shift.first;
-    const double level_now = median(std::span(found.values).subspan(level_begin));
+    const std::vector<double> levels = levels_of(found);
     add_missing(found);
     match_acceptances(found, id, ledger);
-    for (Finding& finding : found.findings) finding.state = state_of(finding, found.series.kind(), level_now);
+    for (std::size_t k = 0; k < found.findings.size(); ++k)
+      found.findings[k].state =
+          state_of(found.findings[k], found.series.kind(), std::span(levels).subspan(std::min(k, levels.size())));
     found.stale = days_of(newest) - days_of(found.series.points.back()->date) > stale_days;
   }
   return all;

@@ -22,7 +22,7 @@ enum class Verdict {
 enum class State {
   open,      ///< worse or missing, and nobody has accepted it: `ledger check` fails
   accepted,  ///< on record with a reason
-  fixed,     ///< worse, but the level has come back since
+  fixed,     ///< worse, but the level has come back since, whatever it did later
   note,      ///< better, moved, or of a metric that raises no alarm
 };
 

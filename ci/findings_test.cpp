@@ -94,6 +94,15 @@ TEST(Findings, WorseIsOpenUntilAcceptedOrMended) {
   EXPECT_EQ(mended[1].state, State::note);
 }
 
+// The commit that is named must be the one that made it worse this time.
+TEST(Findings, WhatWasMendedStaysMendedWhenSomethingElseMakesItWorse) {
+  const auto all = findings(steps("impulse_deviation", {{0, 0.03}, {10, 0.06}, {14, 0.032}, {20, 0.06}}, 24));
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].state, State::fixed);
+  EXPECT_EQ(all[2].verdict, Verdict::worse);
+  EXPECT_EQ(all[2].state, State::open);
+}
+
 TEST(Findings, AnAcceptedShiftIsTheNewBase) {
   Ledger ledger = steps("impulse_deviation", {{0, 0.03}, {10, 0.06}, {20, 0.09}}, 22);
   ledger.acceptances.push_back(acceptance_of(ledger, findings(ledger)[0]));

@@ -98,8 +98,9 @@ void add_append(CLI::App& app, int& exit_code) {
   command->footer(
       "A run that is in the ledger already is left as it is. A run that failed is recorded as not finished.\n"
       "Examples:\n"
-      "  ledger append runs/nightly/*\n"
-      "  ledger append --link-base https://example.org/nightly/2026-11-25 runs/nightly/*\n"
+      "  ledger append runs/quick/kleefsman-*\n"
+      "  ledger append --link-base https://example.org/quick runs/quick/kleefsman-*\n"
+      "  ledger append --commit v2.1 --date 2026-11-25T00:00:00Z --machine host runs/another-code\n"
       "  ledger append --this-build bench.json");
   command->callback([arguments, &exit_code] { exit_code = append(*arguments); });
 }

@@ -9,7 +9,7 @@ const char* const description =
 
 const char* const examples =
     "Examples:\n"
-    "  ledger append runs/nightly/*                       add runs\n"
+    "  ledger append runs/quick/kleefsman-*               add runs\n"
     "  ledger append --this-build bench.json              add a benchmark's results\n"
     "  ledger check                                       exit code 1 when something has become worse\n"
     "  ledger accept --series 1f3a9c04 --reason \"why\"     live with it\n"

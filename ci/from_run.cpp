@@ -14,7 +14,7 @@
 #include "reports/analysis.h"
 #include "validation/acceptance.h"
 #include "validation/file_hash.h"
-#include "validation/run_manifest.h"
+#include "validation/legs.h"
 
 namespace sluice::ci {
 namespace {
@@ -194,6 +194,15 @@ void add_cost(Collector& collector, const RunRecord& run) {
     if (time_s.is_number()) collector.add("phase_time_s", phase, time_s.get<double>(), "s");
 }
 
+/// Threads do not change results, only what they cost.
+void refuse_several_builds(const RunRecord& run) {
+  const std::string difference = difference_of_legs(run.manifest, {"commit", "compiler", "flags", "machine"});
+  if (difference.empty()) return;
+  throw std::runtime_error(
+      fmt::format("{}: {}: its results belong to no single one (compute it anew: sluice run ... --force)",
+                  run.path.string(), difference));
+}
+
 }  // namespace
 
 std::vector<Result> results_of_run(const fs::path& directory, const Provenance& given) {
@@ -203,17 +212,14 @@ std::vector<Result> results_of_run(const fs::path& directory, const Provenance& 
   if (status == "running")
     throw std::runtime_error(fmt::format("{}: the run is still going on, or was killed (finish it: sluice resume {})",
                                          directory.string(), directory.string()));
-  if (const std::string difference = difference_of_legs(run.record.manifest); !difference.empty())
-    throw std::runtime_error(
-        fmt::format("{}: the run was {}: its results belong to no single one (compute it anew: sluice run ... --force)",
-                    directory.string(), difference));
   Collector collector(common_of(run.record, data.the_case, given));
   const bool finished = status.empty() || status == "finished";
   if (!status.empty()) collector.add("finished", "", finished ? 1 : 0, "1");
   if (finished) {
+    refuse_several_builds(run.record);
     add_accuracy(collector, data, run);
     add_early_flow(collector, data, run);
-    add_cost(collector, run.record);
+    if (difference_of_legs(run.record.manifest, {"threads"}).empty()) add_cost(collector, run.record);
   }
   return collector.take();
 }

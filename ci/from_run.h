@@ -22,8 +22,8 @@ struct Provenance {
 /// All results of one run. Of a run that did not finish only `finished` = 0: its other values compare with nothing.
 /// What the run should have given and did not (the acceptance rows that speak of it, the primary readings of measured
 /// sensors) is a result without a value, with the reason. Throws std::runtime_error: no run directory, unknown case, a
-/// run that is still going on, one that was gone on with by another build or machine, or one that does not say its
-/// commit, date or machine when `given` does not either.
+/// run that is still going on, one whose parts were computed by different builds or machines, or one that does not say
+/// its commit, date or machine when `given` does not either.
 std::vector<Result> results_of_run(const std::filesystem::path& directory, const Provenance& given = {});
 
 }  // namespace sluice::ci

@@ -114,6 +114,15 @@ TEST_F(FromRunTest, WhatARunSetsOtherwiseThanTheCaseTellsItApart) {
   EXPECT_EQ(results_of_run(directory).front().parameters.value("delta", 0.0), 0.02);
 }
 
+TEST_F(FromRunTest, ARunInPartsIsOfOneBuildAndItsCostOfOneNumberOfThreads) {
+  const json first{{"commit", "0123abcd"}, {"threads", 1}};
+  write({}, {{"legs", {first, {{"commit", "0123abcd"}, {"threads", 2}}}}});
+  EXPECT_NE(find(results_of_run(directory), "impulse_deviation", "P1 wall"), nullptr);
+  EXPECT_EQ(find(results_of_run(directory), "cpu_time_s"), nullptr);
+  write({}, {{"legs", {first, {{"commit", "4567cdef"}, {"threads", 1}}}}});
+  EXPECT_THAT(error(), HasSubstr("different commit (0123abcd, then 4567cdef)"));
+}
+
 // A wave that never arrives must not vanish from the ledger.
 TEST_F(FromRunTest, WhatARunShouldHaveGivenAndDidNotIsRecorded) {
   write({.scale = 0.05});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
 #include <tuple>
 
 #include "reports/text.h"
@@ -161,7 +162,7 @@ Case case_of(const std::vector<RunRecord>& records) {
   for (const RunRecord& record : records) {
     const std::optional<std::string> file = record.text("case_file");
     if (!file) continue;
-    if (std::filesystem::exists(*file)) return load_case(*file);
+    if (std::error_code none; std::filesystem::exists(*file, none)) return load_case(*file);
     const std::vector<std::string> names = case_names();
     if (std::find(names.begin(), names.end(), record.case_name) == names.end())
       throw std::runtime_error(

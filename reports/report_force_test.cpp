@@ -167,7 +167,7 @@ TEST(ForceTables, LengthsThatSourcesLeaveOpenHaveTheirTableAndAreNoResolutionOrA
   }
 }
 
-TEST(ForceTables, RunsOfOtherParametersAreNoResolutionAlphaOrWallStudy) {
+TEST(ForceTables, RunsOfOtherParametersAreNoResolutionOrAlphaStudy) {
   MadeForceRun run;
   std::vector<fs::path> directories;
   for (const double l0_m : {0.02, 0.0125, 0.01}) {
@@ -191,6 +191,18 @@ TEST(ForceTables, RunsOfOtherParametersAreNoResolutionAlphaOrWallStudy) {
   ASSERT_EQ(alike.size(), 1u);
   EXPECT_EQ(alike[0].runs.size(), 2u);
   EXPECT_TRUE(alpha_series(data).empty()) << "delta differs as well";
+}
+
+TEST(ForceTables, WallsAreComparedBetweenRunsOfTheSameParameters) {
+  MadeForceRun run;
+  const std::vector<fs::path> directories{fresh("force_walls_ours"), fresh("force_walls_paper")};
+  synthetic::write_force_run(directories[0], run);
+  run.walls = "dynamic";
+  synthetic::write_force_run(directories[1], run);
+  EXPECT_EQ(wall_pairs(analyse(directories)).size(), 1u);
+  run.parameters = {{"not_in_the_case_file", 1}};
+  synthetic::write_force_run(directories[1], run);
+  EXPECT_TRUE(wall_pairs(analyse(directories)).empty());
 }
 
 /// A working directory with a user's file in it, as in a clone.

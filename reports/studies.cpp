@@ -27,6 +27,22 @@ std::map<std::string, double> changes(const ReportData& data, const RunRecord& r
   return changed;
 }
 
+/// Whatever makes runs differ in method: changes(), and parameters that the case file does not list.
+std::map<std::string, double> method(const ReportData& data, const RunRecord& run, const Placement* but = nullptr) {
+  std::map<std::string, double> all = changes(data, run, but);
+  const auto given = run.manifest.find("parameters");
+  const SolverOption* solver = data.the_case.find_solver(run.solver);
+  if (!run.own || solver == nullptr || given == run.manifest.end() || !given->is_object()) return all;
+  const WallOption* walls = find_walls(*solver, run.walls);
+  for (const auto& [name, value] : given->items()) {
+    const bool listed = name == "alpha" || solver->parameters.contains(name) ||
+                        data.the_case.find_placement(name) != nullptr ||
+                        (walls != nullptr && walls->parameters.contains(name));
+    if (!listed && value.is_number()) all[name] = value.get<double>();
+  }
+  return all;
+}
+
 /// Sorts runs into lists by a criterion of likeness.
 template <class Alike>
 std::vector<std::vector<const AnalysedRun*>> group_alike(const ReportData& data, Alike alike) {
@@ -51,7 +67,7 @@ std::vector<std::pair<const AnalysedRun*, const AnalysedRun*>> wall_pairs(const 
       const RunRecord& a = data.runs[i].record;
       const RunRecord& b = data.runs[j].record;
       if (a.solver == b.solver && a.l0_m == b.l0_m && same_alpha(a, b) && same_end(a, b) && a.walls != b.walls &&
-          !a.walls.empty() && !b.walls.empty() && changes(data, a) == changes(data, b))
+          !a.walls.empty() && !b.walls.empty() && method(data, a) == method(data, b))
         pairs.emplace_back(&data.runs[i], &data.runs[j]);
     }
   return pairs;
@@ -61,7 +77,7 @@ std::vector<AlphaSeries> alpha_series(const ReportData& data) {
   std::vector<AlphaSeries> out;
   for (auto& runs : group_alike(data, [&](const RunRecord&a, const RunRecord&b) {
          return a.solver == b.solver && a.walls == b.walls && a.l0_m == b.l0_m && same_end(a, b) &&
-                changes(data, a) == changes(data, b);
+                method(data, a) == method(data, b);
        })) {
     std::erase_if(runs, [](const AnalysedRun* run) { return !run->record.alpha(); });
     std::stable_sort(runs.begin(), runs.end(),
@@ -78,7 +94,7 @@ std::vector<ResolutionSeries> resolution_series(const ReportData& data) {
   std::vector<ResolutionSeries> out;
   for (auto& runs : group_alike(data, [&](const RunRecord&a, const RunRecord&b) {
          return a.solver == b.solver && a.walls == b.walls && same_alpha(a, b) && same_end(a, b) &&
-                changes(data, a) == changes(data, b);
+                method(data, a) == method(data, b);
        })) {
     std::stable_sort(runs.begin(), runs.end(), [](auto* a, auto* b) { return a->record.l0_m > b->record.l0_m; });
     // Of two runs at one resolution the first stands for it: an order needs one value each.
@@ -108,7 +124,7 @@ std::vector<PlacementSeries> placement_series(const ReportData& data) {
   for (const Placement& placement : data.the_case.placements)
     for (auto& runs : group_alike(data, [&](const RunRecord&a, const RunRecord&b) {
            return a.solver == b.solver && a.walls == b.walls && a.l0_m == b.l0_m && same_alpha(a, b) &&
-                  same_end(a, b) && changes(data, a, &placement) == changes(data, b, &placement);
+                  same_end(a, b) && method(data, a, &placement) == method(data, b, &placement);
          })) {
       std::stable_sort(runs.begin(), runs.end(), [&](auto* a, auto* b) {
         return placed_at_m(placement, a->record) < placed_at_m(placement, b->record);

@@ -13,10 +13,10 @@
 #include "solvers/state_archive.h"
 #include "validation/cli/program_test.h"
 #include "validation/fake_solver.h"
+#include "validation/legs.h"
 #include "validation/run.h"
 #include "validation/run_cost.h"
 #include "validation/run_directory.h"
-#include "validation/run_manifest.h"
 
 namespace sluice {
 namespace {
@@ -247,7 +247,7 @@ TEST_F(ResumeTest, TellsWhatComputedItsParts) {
   stop_at = -1;
   EXPECT_EQ(resume(parts).status, "finished");
   const auto manifest = read_run(parts).manifest;
-  const std::string difference = "gone on with by another threads (1, then 2)";
+  const std::string difference = "its parts were computed with different threads (1, then 2)";
   EXPECT_EQ(difference_of_legs(manifest), difference);
   EXPECT_EQ(std::count(manifest.at("warnings").begin(), manifest.at("warnings").end(), difference), 1) << manifest;
   EXPECT_EQ(manifest.at("legs").at(1).at("threads"), 2);

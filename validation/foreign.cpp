@@ -123,7 +123,11 @@ std::size_t index_of(const TextTableReader& reader, const std::vector<std::strin
 std::vector<std::string> column_names(TextTableReader& reader, const ForeignFile& f) {
   std::string line;
   for (int k = 0; k < f.header_lines; ++k) line = reader.next_header_line();
-  if (f.header_lines > 0) return split_fields(line, f.separator);
+  if (f.header_lines > 0) {
+    std::vector<std::string> names = split_fields(line, f.separator);
+    while (f.separator == '\t' && !names.empty() && names.back().empty()) names.pop_back();  // tabs at its end
+    return names;
+  }
   std::vector<std::string> numbers(reader.count_fields(f.separator));
   for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = std::to_string(k + 1);
   return numbers;

@@ -167,7 +167,7 @@ TEST_F(ForeignTest, GapsAreLeftOutOnRequestAndTold) {
 
 // As spreadsheets export them: a gauge that is not wet yet has an empty cell, the last one of its row too.
 TEST_F(ForeignTest, BetweenTabsAFieldMayBeEmptyAtTheEndsOfARow) {
-  write("a.csv", "time_s\tP1_Pa\tH2_m\n0\t1\t\n\t2\t0.2\n0.2\t3\t0.2\n0.3\t4\t0.3\t\t\n");
+  write("a.csv", "time_s\tP1_Pa\tH2_m\t\n0\t1\t\n\t2\t0.2\n0.2\t3\t0.2\n0.3\t4\t0.3\t\t\n");
   const std::string tabs = std::string("[[files]]\nseparator = \"tab\"\nskip_incomplete_rows = true\n") +
                            (plain + std::string("[[files]]\n").size());
   EXPECT_THAT(read(tabs).times_s(), ElementsAre(0.2, 0.3));

@@ -50,6 +50,11 @@ RunSettings settings_from(const json& j) {
   return s;
 }
 
+/// Of checkpoints that do not tell their legs yet: what is known of the one that began.
+json first_leg(const RunHeader& h) {
+  return {{"from_s", 0.0}, {"commit", h.commit}, {"threads", h.settings.threads}};
+}
+
 }  // namespace
 
 json to_json(const RunHeader& h) {
@@ -84,8 +89,8 @@ RunHeader run_header_from(const json& j) {
   p.snapshots = j.at("snapshots");
   p.resumed = j.at("resumed");
   p.started = j.at("started");
-  p.legs = j.at("legs");
-  p.warnings = j.at("warnings");
+  p.legs = j.value("legs", json::array({first_leg(h)}));
+  p.warnings = j.value("warnings", json::array());
   return h;
 }
 

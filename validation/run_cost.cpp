@@ -8,8 +8,8 @@
 #include <optional>
 #include <system_error>
 
+#include "validation/legs.h"
 #include "validation/manifest.h"
-#include "validation/run_manifest.h"
 
 namespace sluice {
 namespace {

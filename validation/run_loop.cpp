@@ -10,6 +10,7 @@
 
 #include "validation/checkpoint.h"
 #include "validation/interrupt.h"
+#include "validation/legs.h"
 #include "validation/manifest.h"
 
 namespace sluice {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "validation/manifest.h"
@@ -89,27 +88,6 @@ json start_manifest(const Case& c, const RunSettings& settings, const Scene& sce
   put_scene(m, scene);
   put_sensors(m, sensors);
   return m;
-}
-
-json leg_of(const json& m, double from_s) {
-  return {{"from_s", from_s},       {"commit", m.at("commit")},   {"compiler", m.at("compiler")},
-          {"flags", m.at("flags")}, {"machine", m.at("machine")}, {"threads", m.at("threads")}};
-}
-
-std::string difference_of_legs(const json& m) {
-  const auto legs = m.find("legs");
-  if (legs == m.end() || !legs->is_array() || legs->empty()) return "";
-  std::string text;
-  for (const char* key : {"commit", "compiler", "flags", "machine", "threads"}) {
-    const auto value = [&](const json& leg) { return leg.is_object() && leg.contains(key) ? leg[key] : json(); };
-    const bool differ =
-        std::any_of(legs->begin(), legs->end(), [&](const json& leg) { return value(leg) != value(legs->front()); });
-    if (!differ) continue;
-    const auto shown = [](const json& v) { return v.is_string() ? v.get<std::string>() : v.dump(); };
-    text += fmt::format("{}{} ({}, then {})", text.empty() ? "" : ", ", key, shown(value(legs->front())),
-                        shown(value(legs->back())));
-  }
-  return text.empty() ? "" : "gone on with by another " + text;
 }
 
 void update_manifest(json& m, const Solver& solver, const RunTally& tally) {

@@ -32,13 +32,6 @@ struct RunTally {
 nlohmann::json start_manifest(const Case& c, const RunSettings& settings, const Scene& scene,
                               const std::vector<PlacedSensor>& sensors);
 
-/// One stretch of a run without an interruption, for the manifest's `legs`: the build, machine and threads that the
-/// manifest names now, and the time [s] from which on they computed.
-nlohmann::json leg_of(const nlohmann::json& manifest, double from_s);
-
-/// In words, in what the legs of a run differ; empty where they do not, or where the manifest has none.
-std::string difference_of_legs(const nlohmann::json& manifest);
-
 /// Brings what changes during a run up to date.
 void update_manifest(nlohmann::json& manifest, const Solver& solver, const RunTally& tally);
 

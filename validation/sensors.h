@@ -1,8 +1,7 @@
 // The sensors of a case, read from a running solver by one or more models each.
 //
-// Pressure, model `kernel`: the fluid's kernel mean at a point one smoothing length h off the wall; zero where fluid
-// fills
-//   less than minimum_kernel_support of the kernel. Its support is recorded beside it.
+// Pressure, model `kernel`: the fluid's kernel mean at a point one smoothing length h off the wall; zero where there is
+//   less fluid than minimum_kernel_support of the kernel. Its support is recorded beside it.
 // Pressure, model `wall`: mean pressure of the first layer's wall particles within h of the sensor.
 // Pressure, model `nearest` (in the place of `wall`, for a solver whose walls have pressures of their own; which of the
 //   two a solver has is wall_pressure_model()): the raw pressure of the wall particle nearest to the sensor.

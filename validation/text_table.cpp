@@ -175,8 +175,7 @@ bool TextTableReader::read_row(std::string_view line, const std::vector<std::str
   auto rest = fields_of(line, form.separator);
   for (bool more = true; more; ++count) {
     const auto field = take_field(rest, form.separator, more);
-    const bool nothing_follows = field.empty() && trimmed(rest).empty();
-    if (count == names.size() && form.separator == '\t' && nothing_follows) break;  // tabs at the end of a row
+    if (count == names.size() && form.separator == '\t' && field.empty() && trimmed(rest).empty()) break;
     if (count >= names.size() || !wanted_[count]) continue;
     if (form.skip_incomplete && is_gap(field)) {
       complete = false;

@@ -45,8 +45,8 @@ class TextTableReader {
   std::string next_header_line();
 
   /// All rows as columns, one for each of `names` (which the error messages use). Blank lines are allowed at the end
-  /// only. Throws when a row has another number of fields, a field is not a finite number, or times[time_index] do not
-  /// increase.
+  /// only. Throws when a row has another number of fields (tabs at its end apart), a field is not a finite number, or
+  /// times[time_index] do not increase.
   std::vector<std::vector<double>> read_rows(const std::vector<std::string>& names, char separator,
                                              std::size_t time_index);
   /// The same for rows of another form; columns that are not wanted come back empty.

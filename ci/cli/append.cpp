@@ -96,7 +96,9 @@ void add_append(CLI::App& app, int& exit_code) {
       "--link-base", arguments->link_base,
       "Where people find the sources: the link is this, \"/\" and the source's name (default: its path)");
   command->footer(
-      "A run that is in the ledger already is left as it is. A run that failed is recorded as not finished.\n"
+      "A run that is in the ledger already is left as it is (another code's is told by its files, --commit and "
+      "--date).\n"
+      "A run that failed is recorded as not finished.\n"
       "Examples:\n"
       "  ledger append runs/quick/kleefsman-*\n"
       "  ledger append --link-base https://example.org/quick runs/quick/kleefsman-*\n"

@@ -122,10 +122,9 @@ bool print_results(const Campaign& campaign, const std::vector<Result>& results)
   for (std::size_t i = 0; i < results.size(); ++i) {
     const bool failed = results[i].status == "failed";
     all_well = all_well && !failed;
-    fmt::print("{:12} {}{}\n", results[i].status, campaign.runs[i].directory.filename().string(),
-               failed ? ": " + results[i].error : "");
+    tell(stdout, fmt::format("{:12} {}{}\n", results[i].status, campaign.runs[i].directory.filename().string(),
+                             failed ? ": " + results[i].error : ""));
   }
-  std::fflush(stdout);
   return all_well;
 }
 
@@ -139,7 +138,7 @@ void report_cases(const Campaign& campaign, const fs::path& out) {
     if (directories.empty()) continue;
     const fs::path folder = out / ("report-" + c.name);
     write_report(directories, folder);
-    fmt::print("report: {}\n", (folder / "index.html").string());
+    tell(stdout, fmt::format("report: {}\n", (folder / "index.html").string()));
   }
 }
 

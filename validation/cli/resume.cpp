@@ -6,6 +6,7 @@
 
 #include "validation/checkpoint.h"
 #include "validation/cli/commands.h"
+#include "validation/progress.h"
 #include "validation/run.h"
 
 namespace sluice::cli {
@@ -28,7 +29,7 @@ int resume(ResumeArguments& arguments) {
   const RunOutcome outcome = resume_run(arguments.directory, arguments.options);
   if (outcome.status == "failed")
     throw std::runtime_error(fmt::format("{} (see {}/log.txt)", outcome.error, arguments.directory));
-  fmt::print(stderr, "{}; results in {}\n", outcome.status, arguments.directory);
+  tell(stderr, fmt::format("{}; results in {}\n", outcome.status, arguments.directory));
   return outcome.exit_code;
 }
 

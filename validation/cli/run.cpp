@@ -10,6 +10,7 @@
 #include "validation/cli/commands.h"
 #include "validation/cli/usage_error.h"
 #include "validation/plan.h"
+#include "validation/progress.h"
 #include "validation/run_cost.h"
 #include "validation/solver_factory.h"
 
@@ -71,7 +72,7 @@ int run(const CLI::App& command, RunArguments& arguments) {
   const RunOutcome outcome = run_case(c, settings, options);
   if (outcome.status == "failed")
     throw std::runtime_error(outcome.error + " (see " + (options.out / "log.txt").string() + ")");
-  fmt::print(stderr, "{}; results in {}\n", outcome.status, options.out.string());
+  tell(stderr, fmt::format("{}; results in {}\n", outcome.status, options.out.string()));
   return outcome.exit_code;
 }
 

@@ -11,10 +11,10 @@
 #include "validation/acceptance.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/usage_error.h"
+#include "validation/legs.h"
 #include "validation/manifest.h"
 #include "validation/progress.h"
 #include "validation/run.h"
-#include "validation/run_manifest.h"
 #include "validation/solver_factory.h"
 #include "validation/suggest.h"
 
@@ -34,8 +34,9 @@ struct ValidateArguments {
 };
 
 const char* const validate_footer =
-    "Runs the case at the tier with every solver and wall model: those with acceptance rows are judged, the others\n"
-    "stand beside them in the report. Runs land in runs/validate-TIER-...; exit code 1 when a band is missed.\n\n"
+    "Runs the case at the tier with every solver that this program has, and every wall model: those with acceptance\n"
+    "rows are judged, the others stand beside them in the report. Runs land in runs/validate-TIER-...; exit code 1 "
+    "when a band is missed.\n\n"
     "Examples:\n"
     "  sluice validate --tier quick\n"
     "  sluice validate --tier standard --threads 2 --out reports/standard";
@@ -56,7 +57,7 @@ const SolverOption& find_solver(const Case& c, const std::string& name) {
 
 // With --reuse a finished run of this very build and case is not computed again.
 bool is_current(const Case& c, const fs::path& directory) {
-  if (!fs::exists(directory / "run.json")) return false;
+  if (!fs::exists(directory / "run.json") || !fs::exists(directory / "probes.csv")) return false;
   const RunRecord record = read_run(directory);
   const std::string commit = record.text("commit").value_or("");
   return record.status() == "finished" && commit == build_info().commit && !commit.ends_with("-dirty") &&
@@ -92,7 +93,7 @@ std::vector<std::string> walls_in_order(const SolverOption& solver) {
 bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
   const Measurements measured = Measurements::load(c);
   for (const std::string& problem : measured.problems())
-    fmt::print(stderr, "sluice: warning: no measurement: {}\n", problem);
+    tell(stderr, fmt::format("sluice: warning: no measurement: {}\n", problem));
   bool passed = true;
   bool judged = false;
   for (const fs::path& directory : directories) {
@@ -102,21 +103,22 @@ bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
       return check.verdict != AcceptanceVerdict::not_applicable;
     });
     if (!applicable) {
-      fmt::print("{}: {}: no acceptance rows, for comparison only\n", directory.string(), record.label());
+      tell(stdout,
+           fmt::format("{}: {}: no acceptance rows, for comparison only\n", directory.string(), record.label()));
       continue;
     }
     judged = true;
     const bool ok = all_passed(checks);
-    fmt::print("{}: {}\n{}{}\n", directory.string(), record.label(), acceptance_table(checks),
-               ok ? "all bands hold" : "A BAND IS MISSED");
+    tell(stdout, fmt::format("{}: {}\n{}{}\n", directory.string(), record.label(), acceptance_table(checks),
+                             ok ? "all bands hold" : "A BAND IS MISSED"));
     passed = passed && ok;
   }
-  if (!judged) fmt::print("no acceptance row applies to any of these runs\n");
+  if (!judged) tell(stdout, "no acceptance row applies to any of these runs\n");
   return passed && judged;
 }
 
 bool is_known(const std::string& solver) {
-  const std::vector<std::string> names = solver_names();
+  const std::vector<std::string>& names = solver_names();
   return std::find(names.begin(), names.end(), solver) != names.end();
 }
 
@@ -176,11 +178,12 @@ int validate(const ValidateArguments& arguments) {
   const Computed computed = compute(c, arguments, tier);
   if (computed.interrupted != 0) return computed.interrupted;
   const std::vector<fs::path>& directories = computed.directories;
-  if (directories.empty()) throw std::runtime_error("no run left anything to judge (why is told above)");
+  if (directories.empty())
+    throw std::runtime_error(computed.any_failed ? "no run left anything to judge (why is told above)"
+                                                 : "this program has none of the case's solvers");
   const bool passed = print_acceptance(c, directories);
-  std::fflush(stdout);
   write_report(directories, arguments.out);
-  fmt::print("report: {}\n", (fs::path(arguments.out) / "index.html").string());
+  tell(stdout, fmt::format("report: {}\n", (fs::path(arguments.out) / "index.html").string()));
   return passed && !computed.any_failed ? 0 : 1;
 }
 
@@ -191,7 +194,7 @@ void add_validate(CLI::App& app, int& exit_code) {
       app.add_subcommand("validate", "Run a case at a tier, report it, and judge it by its acceptance bands");
   auto arguments = std::make_shared<ValidateArguments>();
   command->add_option("CASE", arguments->case_name, "Case")->capture_default_str();
-  command->add_option("--solver", arguments->solver, "Solver (default: all of the case)");
+  command->add_option("--solver", arguments->solver, "Solver (default: all of the case that this program has)");
   command->add_option("--tier", arguments->tier, "Resolution: a tier of the case")->capture_default_str();
   command->add_option("--threads", arguments->threads, "Threads (default: all processors)")->check(CLI::Range(1, 1024));
   command->add_option("--out", arguments->out, "Directory of the report")->capture_default_str();

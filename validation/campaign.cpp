@@ -151,7 +151,10 @@ CampaignState state_of(const Campaign& campaign, const CampaignRun& run) {
   const json manifest = manifest_of(run.directory);
   if (manifest.is_null()) return CampaignState::absent;
   if (!same_inputs(manifest, campaign.case_of(run), run.settings)) return CampaignState::outdated;
-  if (text_of(manifest, "status") == "finished") return CampaignState::finished;
+  if (text_of(manifest, "status") == "finished") {
+    const bool lacks_snapshots = !run.settings.snapshot_times_s.empty() && !fs::exists(run.directory / "snapshots.pvd");
+    return lacks_snapshots ? CampaignState::outdated : CampaignState::finished;
+  }
   return fs::exists(run.directory / checkpoint_file) ? CampaignState::resumable : CampaignState::incomplete;
 }
 

@@ -195,6 +195,16 @@ TEST_F(CampaignTest, ThoseOfTheProjectCanBeRead) {
 }
 
 /// What the paper's Tables 1 and 3 list, no more and no less.
+TEST_F(CampaignTest, AFinishedRunWithoutTheSnapshotsAskedForIsOutdated) {
+  const Campaign campaign =
+      load("name = \"c\"\n[[runs]]\ncase = \"kleefsman\"\nsolver = \"mps\"\nl0_m = [0.05]\nsnapshots = true\n");
+  const CampaignRun& run = campaign.runs.at(0);
+  put(run, manifest(campaign, run, "finished"));
+  EXPECT_EQ(state_of(campaign, run), CampaignState::outdated);
+  std::ofstream(run.directory / "snapshots.pvd") << "\n";
+  EXPECT_EQ(state_of(campaign, run), CampaignState::finished);
+}
+
 TEST(PaperCampaign, IsThePapersMatrix) {
   const Campaign campaign = load_campaign("validation/campaigns/paper.toml", "runs", 1);
   std::vector<std::string> ours;
@@ -211,6 +221,18 @@ TEST(PaperCampaign, IsThePapersMatrix) {
         papers.push_back(fmt::format("{} {} {:g} {:g} to {:g} s", c.name, run.solver, run.l0_m, alpha, run.t_end_s));
   EXPECT_THAT(ours, testing::UnorderedElementsAreArray(papers));
   EXPECT_EQ(ours.size(), 13U);
+}
+
+TEST(PaperCampaign, IsComputedThePapersWay) {
+  for (const CampaignRun& run : load_campaign("validation/campaigns/paper.toml", "runs", 1).runs) {
+    const bool mps = run.settings.solver == "mps";
+    EXPECT_EQ(run.settings.walls, mps ? "dummies" : "dynamic");
+    EXPECT_FALSE(run.settings.snapshot_times_s.empty());
+    if (mps)
+      EXPECT_GE(run.settings.parameters.at("tolerated_crowding"), 100) << "the source of Eq. (23) alone";
+    else
+      EXPECT_EQ(run.settings.parameters.at("restart_interval"), 40);
+  }
 }
 
 }  // namespace

@@ -25,12 +25,30 @@ std::string all_but_alpha(json parameters) {
   return parameters.dump();
 }
 
+double alpha_of(const json& parameters) {
+  return parameters.is_object() && parameters.contains("alpha") ? parameters.at("alpha").get<double>() : 0.0;
+}
+
+/// A decade of alpha moves the number of steps about as much as the rule for l0 errs over half an octave.
+double decades_apart(double alpha, double other) {
+  return alpha > 0 && other > 0 ? std::abs(std::log10(alpha / other)) : 0.0;
+}
+
 /// Throws json::exception where a key is missing or is something else.
 std::optional<RunCost> cost_of(const json& m, const std::string& machine) {
   if (m.at("status") != "finished" || m.at("machine") != machine || !difference_of_legs(m).empty()) return std::nullopt;
-  RunCost cost{
-      m.at("case_hash"), m.at("solver"), m.at("walls"), all_but_alpha(m.at("parameters")), m.at("threads"),
-      m.at("l0_m"),      m.at("time_s"), m.at("steps"), m.at("particles").at("fluid"),     m.at("wall_time_s")};
+  RunCost cost;
+  cost.case_hash = m.at("case_hash");
+  cost.solver = m.at("solver");
+  cost.walls = m.at("walls");
+  cost.parameters = all_but_alpha(m.at("parameters"));
+  cost.alpha = alpha_of(m.at("parameters"));
+  cost.threads = m.at("threads");
+  cost.l0_m = m.at("l0_m");
+  cost.time_s = m.at("time_s");
+  cost.steps = m.at("steps");
+  cost.fluid = m.at("particles").at("fluid");
+  cost.wall_time_s = m.at("wall_time_s");
   const bool makes_sense = cost.l0_m > 0 && cost.time_s > 0 && cost.steps > 0 && cost.fluid > 0 && cost.wall_time_s > 0;
   return makes_sense ? std::optional(cost) : std::nullopt;
 }
@@ -82,9 +100,11 @@ std::vector<fs::path> runs_near(const fs::path& directory) {
 void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettings& s, Plan& plan) {
   const RunCost* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
+  const double alpha = alpha_of(s.parameters);
   for (const RunCost& cost : costs) {
     if (cost.solver != s.solver || cost.walls != s.walls || cost.threads != s.threads) continue;
-    const double apart = std::abs(std::log(cost.l0_m / s.l0_m)) + (cost.case_hash == c.hash ? 0.0 : 10.0);
+    const double apart = std::abs(std::log(cost.l0_m / s.l0_m)) + 0.35 * decades_apart(cost.alpha, alpha) +
+                         (cost.case_hash == c.hash ? 0.0 : 10.0);
     if (apart >= least) continue;
     least = apart;
     nearest = &cost;

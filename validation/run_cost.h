@@ -16,7 +16,8 @@ struct RunCost {
   std::string case_hash;
   std::string solver;
   std::string walls;
-  std::string parameters;  ///< all but alpha, as JSON: alpha hardly moves the time step
+  std::string parameters;  ///< all but alpha, as JSON
+  double alpha = 0;        ///< zero where there is none
   int threads = 0;
   double l0_m = 0;
   double time_s = 0;  ///< simulated
@@ -33,10 +34,10 @@ std::vector<RunCost> run_costs(const std::vector<std::filesystem::path>& directo
 /// most 1000. `directory` need not exist.
 std::vector<std::filesystem::path> runs_near(const std::filesystem::path& directory);
 
-/// Reckons a plan's time by the particle-steps a second of the nearest of `costs` in particle distance, among those of
-/// the same solver, walls and number of threads, one of the same case before others. Where that was the same flow
-/// (case and parameters, alpha aside), its time step counts too: steps a second of flow go with 1 / l0. Without such a
-/// run the plan stays as it is.
+/// Reckons a plan's time by the particle-steps a second of the nearest of `costs` in particle distance and alpha, among
+/// those of the same solver, walls and number of threads, one of the same case before others. Where that was the same
+/// flow (case and parameters, alpha aside), its time step counts too: steps a second of flow go with 1 / l0, and hang a
+/// little on alpha. Without such a run the plan stays as it is.
 void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettings& settings, Plan& plan);
 
 /// plan_run(), its time reckoned by the runs near the directory that the run will go to.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -104,12 +105,17 @@ int compute_all(const Campaign& campaign, const CampaignArguments& arguments, co
     tell(stderr, fmt::format("[{}/{}] {}; {} left of the campaign\n", i + 1, campaign.runs.size(),
                              run.directory.filename().string(),
                              human_time(remaining_s(campaign, i, arguments.force, known_costs(campaign, others)))));
+    const double planned_s = estimate(campaign, run, known_costs(campaign, others)).remaining_s();
+    const auto begin = std::chrono::steady_clock::now();
     RunOutcome outcome;
     try {
       outcome = compute(campaign, run, arguments);
     } catch (const std::exception& error) {
       outcome = {"failed", error.what(), 1};
     }
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    tell(stderr, fmt::format("[{}/{}] {} after {}, planned {}\n", i + 1, campaign.runs.size(), outcome.status,
+                             human_time(taken.count()), human_time(planned_s)));
     results.push_back({outcome.status, outcome.error});
     if (outcome.status == "interrupted") return outcome.exit_code;
   }
@@ -180,8 +186,13 @@ int compute_only(const Campaign& campaign, const CampaignArguments& arguments) {
 int compute_and_report(const Campaign& campaign, const CampaignArguments& arguments, const fs::path& out,
                        const std::vector<fs::path>& others) {
   std::vector<Result> results;
+  const double planned_s = remaining_s(campaign, 0, arguments.force, known_costs(campaign, others));
+  const auto begin = std::chrono::steady_clock::now();
   const int interrupted = compute_all(campaign, arguments, others, results);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   const bool all_well = print_results(campaign, results);
+  tell(stdout, fmt::format("{}: {} taken, {} planned at its begin\n", campaign.name, human_time(taken.count()),
+                           human_time(planned_s)));
   if (interrupted != 0) {
     tell(stderr, fmt::format("interrupted; the same command {}goes on\n", arguments.force ? "without --force " : ""));
     return interrupted;

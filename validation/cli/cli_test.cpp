@@ -154,7 +154,31 @@ t_end_s = 0.01
   EXPECT_EQ(first.exit_code, 1);
   EXPECT_THAT(first.out, AllOf(HasSubstr("failed       kleefsman-mps"), HasSubstr("did not converge"),
                                HasSubstr("finished     kleefsman-wcsph")));
+  EXPECT_THAT(first.out, HasSubstr("planned at its begin"));
   EXPECT_THAT(sluice(command).out, AllOf(HasSubstr("2 runs, 1 to compute"), HasSubstr("kept         kleefsman-wcsph")));
+}
+
+TEST_F(CommandLine, AnInterruptedCampaignGoesOnByTheSameCommand) {
+  std::ofstream(directory / "c.toml") << R"(name = "c"
+[[runs]]
+case = "kleefsman"
+solver = "mps"
+l0_m = [0.05]
+t_end_s = 0.5
+)";
+  const std::string command = fmt::format("campaign {} --threads 1 --no-report --out {}",
+                                          (directory / "c.toml").string(), (directory / "runs").string());
+  const fs::path run = directory / "runs" / "kleefsman-mps-dummies-l0.050-t_end_s0.5";
+  const int status = std::system(
+      fmt::format("bash -c '{} {} >/dev/null 2>&1 & pid=$!; while ! grep -qs . {}/probes.csv; do sleep 0.1; done; "
+                  "kill -TERM $pid; wait $pid'",
+                  program, command, run.string())
+          .c_str());
+  ASSERT_EQ(WEXITSTATUS(status), 143);
+  EXPECT_EQ(read_run(run).status(), "interrupted");
+  EXPECT_EQ(sluice(command).exit_code, 0);
+  EXPECT_EQ(read_run(run).status(), "finished");
+  EXPECT_EQ(read_run(run).number("resumed"), 1);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <fstream>
 
 #include "validation/case.h"
+#include "validation/digest.h"
+#include "validation/file_hash.h"
 #include "validation/run_directory.h"
 
 namespace sluice {
@@ -237,6 +239,44 @@ TEST_F(ForeignTest, AnImportedRunReadsLikeAnyOther) {
   EXPECT_FALSE(run.own);
   EXPECT_THAT(run.probes.values("P1_Pa"), ElementsAre(1, 2));
   EXPECT_TRUE(run.manifest.at("imported_from").at(0).contains("hash"));
+}
+
+TEST(VolumeOfFluidMaps, ExpectTheRawFileInTheRawFolder) {
+  for (const char* map : {"data/vof_kleefsman/interfoam.toml", "data/vof_kleefsman/interfoam_p2.toml"})
+    EXPECT_EQ(load_foreign_map(map).files.at(0).file.lexically_normal(),
+              fs::path("../shared/data/vof_kleefsman/interfoam_161x50x50.csv"))
+        << map;
+}
+
+/// A real delivery of another code. Expected values were read from the raw file, which stays with its owner.
+TEST_F(ForeignTest, TheVolumeOfFluidSeriesIsReadRowByRow) {
+  const fs::path raw = raw_data_folder() / "vof_kleefsman/interfoam_161x50x50.csv";
+  if (!fs::exists(raw))
+    GTEST_SKIP() << "the raw series is not part of the project and " << raw.string()
+                 << " is not there; set SLUICE_RAW_DATA to the folder of raw data";
+  EXPECT_EQ(file_hash(raw), "fnv1a64:2848ab176d2eca1c");
+  ForeignMap map = load_foreign_map("data/vof_kleefsman/interfoam.toml");
+  map.files.at(0).file = raw;
+  std::int64_t skipped = 0;
+  const ProbeTable whole = read_foreign(map, &skipped);
+  EXPECT_THAT(whole.names(), ElementsAre("P1_Pa", "H2_m", "H4_m"));
+  ASSERT_EQ(whole.rows(), 557u);
+  EXPECT_EQ(skipped, 0);
+  EXPECT_EQ(whole.times_s().front(), 0.0089);
+  EXPECT_EQ(whole.times_s().back(), 5.9957);
+  EXPECT_EQ(whole.times_s()[29], 0.4411);  // line 31 of the file
+  EXPECT_EQ(whole.values("P1_Pa")[29], 9838.2629);
+  EXPECT_EQ(whole.values("H2_m")[29], 0.0740);
+  EXPECT_EQ(whole.values("H4_m")[29], 0.4589);
+  map = load_foreign_map("data/vof_kleefsman/interfoam_p2.toml");
+  map.files.at(0).file = raw;
+  import_foreign(map, directory / "p2");
+  const RunRecord p2 = read_run(directory / "p2");
+  EXPECT_EQ(p2.solver, "interFoam (OpenFOAM v2312), P2");
+  EXPECT_EQ(p2.probes.rows(), 552u);
+  EXPECT_EQ(p2.probes.times_s().back(), 5.8909);
+  EXPECT_NEAR(p2.probes.values("P2_Pa")[32], 8248.2787, 1e-4);  // line 34; run directories keep nine digits
+  EXPECT_EQ(p2.manifest.at("warnings").at(0), "5 incomplete rows of its files were left out");
 }
 
 }  // namespace

@@ -48,7 +48,10 @@ std::string subtitle(const ReportData& data) {
 
 void write_report(const std::vector<std::filesystem::path>& run_directories, const std::filesystem::path& out,
                   const ReportOptions& options) {
-  const ReportData data = analyse(run_directories);
+  write_analysed(analyse(run_directories), out, options);
+}
+
+void write_analysed(const ReportData& data, const std::filesystem::path& out, const ReportOptions& options) {
   std::filesystem::create_directories(out);
   const FigureMaker maker{data, out, options.figures};
   ReportDocument document;

@@ -7,6 +7,8 @@
 
 namespace sluice {
 
+struct ReportData;
+
 struct ReportOptions {
   std::string title;      ///< empty: made from the case's title
   bool figures = true;    ///< false: tables and text only, gnuplot is not needed
@@ -20,5 +22,8 @@ struct ReportOptions {
 /// gnuplot missing.
 void write_report(const std::vector<std::filesystem::path>& run_directories, const std::filesystem::path& out,
                   const ReportOptions& options = {});
+
+/// The same of what analyse() has read.
+void write_analysed(const ReportData& data, const std::filesystem::path& out, const ReportOptions& options = {});
 
 }  // namespace sluice

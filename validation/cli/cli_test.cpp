@@ -129,6 +129,55 @@ TEST_F(CommandLine, AnInterruptedRunKeepsItsResults) {
   EXPECT_GT(record.probes.rows(), 0u);
 }
 
+/// Gauges of the water level as DualSPHysics writes them, and a map that takes their heights to be in `unit`.
+void write_gauge(const fs::path& directory, const std::string& unit) {
+  std::ofstream(directory / "GaugesSWL_H4.csv")
+      << "time [s];swlx [m];swly [m];swlz [m];pos0x [m];pos0y [m];pos0z [m]\n"
+         "0;2.638;0.5;0.55;2.638;0.5;0\n0.05;2.638;0.5;0.549;2.638;0.5;0\n0.1;2.638;0.5;0.546;2.638;0.5;0\n";
+  std::ofstream(directory / "gauges.toml") << R"(case = "kleefsman"
+solver = "DualSPHysics"
+l0_m = 0.02
+[[files]]
+file = "GaugesSWL_H4.csv"
+separator = ";"
+time = { column = "time [s]", unit = "s" }
+columns = [ { sensor = "H4", column = "swlz [m]", unit = ")"
+                                           << unit << "\" } ]\n";
+}
+
+TEST_F(CommandLine, CompareReportsOnGaugesOfAnotherCode) {
+  write_gauge(directory, "m");
+  const fs::path out = directory / "report";
+  const std::string command = fmt::format("compare {} --case kleefsman --no-figures --out {}",
+                                          (directory / "gauges.toml").string(), out.string());
+  const Answer answer = sluice(command);
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out, HasSubstr("index.html"));
+  for (const char* page : {"index.html", "report.md"}) EXPECT_THAT(contents(out / page), HasSubstr("DualSPHysics"));
+  const RunRecord record = read_run(out / "imported" / "gauges");
+  EXPECT_EQ(record.probes.rows(), 3u);
+  EXPECT_EQ(record.probes.values("H4_m").back(), 0.546);
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("sluice: warning: R1 ("), HasSubstr("covers 0.10 s of a window"),
+                                Not(HasSubstr("is its unit"))));
+}
+
+TEST_F(CommandLine, CompareWarnsOfUnitsThatAreOffByAThousand) {
+  write_gauge(directory, "mm");
+  const Answer answer =
+      sluice(fmt::format("compare {0}/gauges.toml --no-figures --out {0}/report", directory.string()));
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("sluice: warning: R1 ("), HasSubstr("H4 peaks at"),
+                                HasSubstr("times the measured value: is its unit m?")));
+}
+
+TEST_F(CommandLine, CompareRefusesAnotherCase) {
+  write_gauge(directory, "m");
+  const Answer answer =
+      sluice(fmt::format("compare {0}/gauges.toml --case column --no-figures --out {0}/report", directory.string()));
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("is of the case kleefsman, not column"));
+}
+
 // One run that ends, one that cannot: the campaign goes on, tells the failure, and keeps what is finished.
 TEST_F(CommandLine, ACampaignGoesOnPastAFailureAndKeepsWhatIsFinished) {
   std::ofstream(directory / "c.toml") << R"(name = "c"

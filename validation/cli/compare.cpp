@@ -1,15 +1,20 @@
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "reports/analysis.h"
 #include "reports/report.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/usage_error.h"
 #include "validation/foreign.h"
+#include "validation/printable.h"
+#include "validation/progress.h"
 #include "validation/run_directory.h"
 
 namespace sluice::cli {
@@ -44,6 +49,15 @@ std::vector<fs::path> run_directories(const CompareArguments& arguments) {
   return directories;
 }
 
+/// What the report says of its runs too: wrong units show here first.
+void tell_problems(const ReportData& data) {
+  constexpr std::size_t longest = 1000;  // of what may quote a manifest
+  for (const AnalysedRun& run : data.runs)
+    for (const std::string& problem : run.problems)
+      tell(stderr, fmt::format("sluice: warning: {} ({}): {}\n", run.key, printable(run.record.path.string(), longest),
+                               printable(problem, longest)));
+}
+
 int compare(CompareArguments& arguments) {
   const std::vector<fs::path> directories = run_directories(arguments);
   if (!arguments.case_name.empty()) {
@@ -53,7 +67,9 @@ int compare(CompareArguments& arguments) {
         throw UsageError(fmt::format("{}: is of the case {}, not {}", directory.string(), run.case_name, wanted));
   }
   arguments.options.figures = !arguments.no_figures;
-  write_report(directories, arguments.out, arguments.options);
+  const ReportData data = analyse(directories);
+  tell_problems(data);
+  write_analysed(data, arguments.out, arguments.options);
   fmt::print("report: {}\n", (fs::path(arguments.out) / "index.html").string());
   return 0;
 }

@@ -142,7 +142,11 @@ ProbeTable read_file(TextTableReader& reader, const ForeignFile& f, std::int64_t
   skipped += reader.skipped();
   auto times = columns[time];  // a copy, as below: one column may feed time and sensors
   rescale_times(times, f.time.offset, f.time.factor, f.file, f.time.column);
-  if (times.empty()) throw std::runtime_error(fmt::format("{}: holds no row behind its header", f.file.string()));
+  if (times.empty())
+    throw std::runtime_error(fmt::format("{}: holds no row behind its header{}", f.file.string(),
+                                         reader.skipped() > 0
+                                             ? " that is complete (map only columns that it fills)"
+                                             : " (is `header_lines` right, and was it written to its end?)"));
   std::vector<std::string> targets;
   std::vector<std::vector<double>> values;
   for (std::size_t k = 0; k < f.columns.size(); ++k) {
@@ -237,7 +241,10 @@ void import_foreign(const ForeignMap& map, const fs::path& directory) {
   const ProbeTable table = read_foreign(map, &skipped);
   std::error_code error;
   fs::create_directories(directory, error);
-  if (error) throw std::runtime_error(fmt::format("{}: cannot be made ({})", directory.string(), error.message()));
+  if (error)
+    throw std::runtime_error(
+        fmt::format("{}: cannot be made ({}); check that no file is in its way and that the folder above is writable",
+                    directory.string(), error.message()));
   write_probes(directory / "probes.csv", table);
   nlohmann::json sources = nlohmann::json::array();
   for (const ForeignFile& f : map.files)

@@ -140,7 +140,7 @@ TEST_F(ForeignTest, BadFilesAreRefusedByLine) {
   write("a.csv", "");
   EXPECT_THAT(refusal(plain), HasSubstr("empty"));
   write("a.csv", "time_s,P1_Pa,H2_m\n");
-  EXPECT_THAT(refusal(plain), HasSubstr("no row"));
+  EXPECT_THAT(refusal(plain), HasSubstr("no row behind its header (is `header_lines` right"));
   write("a.csv", "time_s,P1_Pa\n0,1\n");
   EXPECT_THAT(refusal(plain), AllOf(HasSubstr("a.csv:1"), HasSubstr("no column \"H2_m\"")));
   write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0\n0.1,nan,0\n");
@@ -239,6 +239,20 @@ TEST_F(ForeignTest, AnImportedRunReadsLikeAnyOther) {
   EXPECT_FALSE(run.own);
   EXPECT_THAT(run.probes.values("P1_Pa"), ElementsAre(1, 2));
   EXPECT_TRUE(run.manifest.at("imported_from").at(0).contains("hash"));
+}
+
+TEST_F(ForeignTest, RemediesAreNamedWhereNothingCanBeReadOrWritten) {
+  write("a.csv", "time_s,P1_Pa,H2_m\n0,,0\n");
+  std::string text = plain;
+  text.insert(text.find("time ="), "skip_incomplete_rows = true\n");
+  EXPECT_THAT(refusal(text), HasSubstr("no row behind its header that is complete (map only"));
+  text = plain;
+  text.insert(text.find("time ="), "header_lines = 3\n");
+  EXPECT_THAT(refusal(text), AllOf(HasSubstr("a.csv:2"), HasSubstr("ends within its header (is it cut short")));
+  write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0\n");
+  read(plain);
+  EXPECT_THAT([&] { import_foreign(load_foreign_map(directory / "m.toml"), directory / "a.csv" / "run"); },
+              testing::ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("cannot be made"), HasSubstr("in its way"))));
 }
 
 TEST(VolumeOfFluidMaps, ExpectTheRawFileInTheRawFolder) {

@@ -18,6 +18,10 @@ using nlohmann::json;
 /// Values are copied by recursion: without a limit a file could overflow the stack.
 constexpr int deepest_nesting = 100;
 
+/// Remedy for a manifest that is of no use as it stands.
+constexpr std::string_view what_suffices =
+    R"(correct it, or write { "case": "kleefsman", "solver": "name", "l0_m": 0.02 })";
+
 const json* find(const json& root, std::string_view dotted) {
   const json* node = &root;
   while (!dotted.empty()) {
@@ -43,15 +47,18 @@ json manifest_from(std::string_view text, const fs::path& file) {
   try {
     json manifest = json::parse(text, [&file](int depth, json::parse_event_t, const json&) {
       if (depth <= deepest_nesting) return true;
-      throw std::runtime_error(fmt::format("{}: is nested deeper than {} levels", file.string(), deepest_nesting));
+      throw std::runtime_error(
+          fmt::format("{}: is nested deeper than {} levels ({})", file.string(), deepest_nesting, what_suffices));
     });
-    if (!manifest.is_object()) throw std::runtime_error(fmt::format("{}: is not a JSON object", file.string()));
+    if (!manifest.is_object())
+      throw std::runtime_error(fmt::format("{}: is not a JSON object ({})", file.string(), what_suffices));
     return manifest;
   } catch (const json::exception& error) {
     // Its text begins with the exception's name in brackets.
     const std::string_view text = error.what();
-    throw std::runtime_error(fmt::format("{}: is not valid JSON: {}", file.string(),
-                                         printable(text.substr(std::min(text.find("] ") + 2, text.size())), 500)));
+    throw std::runtime_error(fmt::format("{}: is not valid JSON: {} ({})", file.string(),
+                                         printable(text.substr(std::min(text.find("] ") + 2, text.size())), 500),
+                                         what_suffices));
   }
 }
 

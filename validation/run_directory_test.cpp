@@ -9,6 +9,7 @@ namespace sluice {
 namespace {
 
 using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -43,7 +44,16 @@ TEST(RunDirectory, ManifestsThatCannotBeUsedAreRefused) {
 }
 
 TEST(RunDirectory, DeepNestingIsRefused) {
-  EXPECT_EQ(complaint(std::string(1'000'000, '[')), "runs/x/run.json: is nested deeper than 100 levels");
+  EXPECT_THAT(complaint(std::string(1'000'000, '[')),
+              StartsWith("runs/x/run.json: is nested deeper than 100 levels ("));
+}
+
+TEST(RunDirectory, ARefusedManifestIsToldWhatSuffices) {
+  const std::string remedy = R"( (correct it, or write { "case": "kleefsman", "solver": "name", "l0_m": 0.02 }))";
+  for (const std::string& text : {std::string("{\"case\": "), std::string("[1]"), std::string(200, '[')})
+    EXPECT_THAT(complaint(text), EndsWith(remedy));
+  const std::string suffices = remedy.substr(remedy.find('{'), remedy.find('}') + 1 - remedy.find('{'));
+  EXPECT_EQ(complaint(suffices), "no complaint");
 }
 
 }  // namespace

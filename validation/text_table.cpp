@@ -116,7 +116,7 @@ std::string TextTableReader::next_header_line() {
   const bool first = line_number_ == 0;
   if (next_line()) return line_;
   if (first) throw std::runtime_error(fmt::format("{}: the file is empty; it needs a header line", path_.string()));
-  fail("the file ends within its header");
+  fail("the file ends within its header (is it cut short, or has it fewer header lines than announced?)");
 }
 
 bool TextTableReader::take_line() {

@@ -163,6 +163,36 @@ TEST(ReportTables, ThePapersStatementsAreJudgedByTheRuns) {
   EXPECT_EQ(table.rows[4].cells[1].text, "7.9 times");
 }
 
+/// Ours too high, the paper's too low: pooled they would say that WCSPH is as good as the better of them.
+TEST(ReportTables, EachWallModelHasItsOwnVerdict) {
+  std::vector<fs::path> runs;
+  const auto write = [&](const MadeRun& made) {
+    runs.push_back(fresh("statement_walls_" + std::to_string(runs.size())));
+    synthetic::write_run(runs.back(), made);
+  };
+  write({.alpha = 0.1, .scale = 1.1});
+  write({.alpha = 0.001, .scale = 1.2});
+  write({.solver = "mps", .walls = "dummies", .scale = 0.8});
+  EXPECT_EQ(conclusions_table(analyse(runs)).rows[0].cells[0].text, "MPS is more accurate in impulse")
+      << "one wall model needs no name";
+  write({.walls = "dynamic", .l0_m = 0.03, .alpha = 0.1, .scale = 0.5});
+  write({.walls = "dynamic", .l0_m = 0.03, .alpha = 0.001, .scale = 0.6});
+  write({.solver = "mps", .walls = "dummies", .l0_m = 0.03, .scale = 0.8});
+  const Table table = conclusions_table(analyse(runs));
+  const auto verdict = [&](const std::string& statement, const std::string& walls) {
+    return cell(table, statement + ", " + walls, "verdict").text;
+  };
+  EXPECT_EQ(verdict("MPS is more accurate in impulse", "extrapolated walls"), "does not agree") << "20 % against 10 %";
+  EXPECT_EQ(verdict("MPS is more accurate in impulse", "dynamic walls (the paper's)"), "agrees") << "20 against 40 %";
+  EXPECT_EQ(verdict("WCSPH underestimates the impulses", "extrapolated walls"), "does not agree");
+  EXPECT_EQ(verdict("WCSPH underestimates the impulses", "dynamic walls (the paper's)"), "agrees");
+  EXPECT_EQ(verdict("α ≤ 0.001 gives better impulses", "extrapolated walls"), "does not agree");
+  EXPECT_EQ(verdict("α ≤ 0.001 gives better impulses", "dynamic walls (the paper's)"), "agrees");
+  EXPECT_EQ(cell(table, "WCSPH underestimates the impulses, dynamic", "runs").text, "6 of 6 impulses too low");
+  EXPECT_TRUE(cell(table, "MPS is more accurate in impulse, dynamic", "runs").text.ends_with("l0 30 mm)"))
+      << "the finest that has both with these walls";
+}
+
 TEST(ReportTables, UnitsThatCannotBeRightAreDoubted) {
   const fs::path dir = fresh("units");
   synthetic::write_external_run(dir, 1000.0);

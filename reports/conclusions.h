@@ -1,0 +1,76 @@
+// What the rows on the paper's statements share: how a statement is judged, and by which runs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/analysis.h"
+#include "reports/table.h"
+
+namespace sluice::conclusions {
+
+/// What our runs say to a statement; no words: nothing can be said.
+struct Evidence {
+  std::string words;
+  bool agrees = false;
+  bool lacks_measurement = false;  ///< the statement needs one that nobody supplied
+};
+
+/// A row: the statement, the paper's evidence, ours, and the verdict.
+void add(Table& table, const std::string& statement, const std::string& paper, const Evidence& ours);
+
+std::string percent(double share);
+
+/// Which runs of WCSPH a statement is judged by. The paper's walls and ours err each in its own way, so that a verdict
+/// over both says nothing of either: one a wall model, or all runs where there is one model only.
+struct WallsScope {
+  std::optional<std::string> walls;
+
+  bool has(const AnalysedRun& run) const { return !walls || run.record.walls == *walls; }
+  /// The statement with the walls that it is judged for.
+  std::string named(const std::string& statement) const;
+};
+
+/// One a wall model of our WCSPH runs.
+std::vector<WallsScope> walls_scopes(const ReportData& data);
+/// The same with those of other codes' runs that differ in alpha alone.
+std::vector<WallsScope> alpha_scopes(const ReportData& data);
+
+/// MPS and WCSPH runs of the finest particle distance that has both.
+struct BothMethods {
+  std::vector<const AnalysedRun*> mps;
+  std::vector<const AnalysedRun*> wcsph;
+  double l0_m = 0;
+};
+BothMethods finest_of_both(const ReportData& data, const WallsScope& scope = {});
+
+/// The smallest value of a quantity over some runs, and whose it is.
+template <class Measure>
+std::pair<std::optional<double>, const AnalysedRun*> least(const std::vector<const AnalysedRun*>& runs,
+                                                           Measure measure) {
+  std::optional<double> best;
+  const AnalysedRun* whose = nullptr;
+  for (const AnalysedRun* run : runs) {
+    const std::optional<double> value = measure(*run);
+    if (!value || (best && *best <= *value)) continue;
+    best = value;
+    whose = run;
+  }
+  return {best, whose};
+}
+
+/// The alphas that the paper prints for WCSPH.
+std::vector<double> published_alphas(const ReportData& data);
+
+/// "MPS is more accurate in impulse"
+void add_accuracy(Table& table, const ReportData& data);
+/// "WCSPH underestimates the impulses"
+void add_sign(Table& table, const ReportData& data);
+/// "α ≤ 0.001 gives better impulses"
+void add_alpha(Table& table, const ReportData& data);
+/// "α = 0.1 gives the best force" and "Oscillations of the force grow as α falls", for every force that it shows.
+void add_force_statements(Table& table, const ReportData& data);
+
+}  // namespace sluice::conclusions

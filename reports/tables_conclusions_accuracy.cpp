@@ -1,0 +1,77 @@
+// The paper's statements on how well the two methods predict pressures.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "reports/conclusions.h"
+#include "reports/studies.h"
+
+namespace sluice::conclusions {
+
+namespace {
+
+std::string printed_accuracy(const ReportData& data) {
+  std::vector<double> wcsph;
+  for (const double alpha : published_alphas(data))
+    if (const auto error = published_mean(data, "wcsph", alpha)) wcsph.push_back(*error);
+  const auto mps = published_mean(data, "mps", std::nullopt);
+  if (!mps || wcsph.empty()) return "";
+  return fmt::format("MPS {}, WCSPH {} to {}", percent(*mps), percent(*std::min_element(wcsph.begin(), wcsph.end())),
+                     percent(*std::max_element(wcsph.begin(), wcsph.end())));
+}
+
+/// How many impulses are too low.
+struct LowImpulses {
+  int low = 0;
+  int all = 0;
+  void put(std::optional<double> deviation) {
+    low += deviation && *deviation < 0;
+    all += deviation.has_value();
+  }
+  std::string words() const { return all > 0 ? fmt::format("{} of {} impulses too low", low, all) : ""; }
+};
+
+LowImpulses our_low_impulses(const ReportData& data, const WallsScope& scope) {
+  LowImpulses ours;
+  for (const AnalysedRun& run : data.runs) {
+    if (!run.record.own || run.record.solver != "wcsph" || !scope.has(run)) continue;
+    for (const std::string& sensor : data.headline_sensors()) {
+      const SensorReading* reading = run.primary(sensor);
+      ours.put(reading == nullptr ? std::nullopt : reading->comparison.impulse.deviation());
+    }
+  }
+  return ours;
+}
+
+}  // namespace
+
+void add_accuracy(Table& table, const ReportData& data) {
+  const std::string paper = printed_accuracy(data);
+  const auto error = [&](const AnalysedRun& run) { return mean_impulse_error(data, run); };
+  for (const WallsScope& scope : walls_scopes(data)) {
+    Evidence ours;
+    const BothMethods both = finest_of_both(data, scope);
+    const auto [best_mps, mps_run] = least(both.mps, error);
+    const auto [best_wcsph, wcsph_run] = least(both.wcsph, error);
+    if (best_mps && best_wcsph) {
+      ours.words = fmt::format("MPS {} ({}), best WCSPH {} ({})", percent(*best_mps), mps_run->key,
+                               percent(*best_wcsph), wcsph_run->label);
+      ours.agrees = *best_mps < *best_wcsph;
+    }
+    add(table, scope.named("MPS is more accurate in impulse"), paper, ours);
+  }
+}
+
+void add_sign(Table& table, const ReportData& data) {
+  LowImpulses printed;
+  for (const double alpha : published_alphas(data))
+    for (const std::string& sensor : data.headline_sensors())
+      printed.put(published_deviation(data, sensor, "wcsph", alpha));
+  for (const WallsScope& scope : walls_scopes(data)) {
+    const LowImpulses ours = our_low_impulses(data, scope);
+    add(table, scope.named("WCSPH underestimates the impulses"), printed.words(), {ours.words(), ours.low == ours.all});
+  }
+}
+
+}  // namespace sluice::conclusions

@@ -1,0 +1,133 @@
+// The paper's statements on the artificial viscosity.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "reports/conclusions.h"
+#include "reports/studies.h"
+#include "reports/text.h"
+
+namespace sluice::conclusions {
+
+namespace {
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::vector<AlphaSeries> alpha_series(const ReportData& data, const WallsScope& scope) {
+  std::vector<AlphaSeries> series = sluice::alpha_series(data);
+  std::erase_if(series, [&](const AlphaSeries& one) { return !scope.has(*one.runs.front()); });
+  return series;
+}
+
+/// Mean error up to an alpha and above; missing where one side has no run.
+struct AlphaSides {
+  double limit = 0;
+  std::vector<double> small{};
+  std::vector<double> large{};
+  void put(double alpha, std::optional<double> error) {
+    if (error) (alpha <= limit * (1 + 1e-9) ? small : large).push_back(*error);
+  }
+  bool both() const { return !small.empty() && !large.empty(); }
+  std::string words() const {
+    return fmt::format("{} at α ≤ {}, {} above", percent(mean(small)), shortest(limit), percent(mean(large)));
+  }
+};
+
+/// Whether every series errs less at alphas up to the limit.
+template <class Error>
+Evidence judge_sides(const ReportData& data, const WallsScope& scope, double limit, Error error) {
+  Evidence ours;
+  ours.agrees = true;
+  for (const AlphaSeries& series : alpha_series(data, scope)) {
+    AlphaSides sides{limit};
+    for (const AnalysedRun* run : series.runs) sides.put(*run->record.alpha(), error(*run));
+    if (!sides.both()) continue;
+    ours.words += fmt::format("{}{}: {}", ours.words.empty() ? "" : "; ", series.title, sides.words());
+    ours.agrees = ours.agrees && mean(sides.small) < mean(sides.large);
+  }
+  return ours;
+}
+
+/// One quantity of a force in each series of runs that differ in alpha alone: "WCSPH ...: 1.2 N at 0.1, 1.5 N at 0.01".
+struct AlphaTrend {
+  std::string words;
+  std::vector<std::vector<std::pair<double, double>>> series;  ///< alpha and value, smallest alpha first
+};
+
+template <class Measure>
+AlphaTrend alpha_trend(const ReportData& data, const WallsScope& scope, const std::string& sensor,
+                       const std::string& unit, Measure measure) {
+  AlphaTrend trend;
+  for (const AlphaSeries& runs : alpha_series(data, scope)) {
+    std::vector<std::pair<double, double>> points;
+    std::string words;
+    for (const AnalysedRun* run : runs.runs) {
+      const SensorReading* reading = run->primary(sensor);
+      const std::optional<double> value = reading == nullptr ? std::nullopt : measure(reading->comparison);
+      if (!value) continue;
+      points.emplace_back(*run->record.alpha(), *value);
+      words += fmt::format("{}{} {} at {}", words.empty() ? "" : ", ", significant(*value, 3), unit,
+                           shortest(points.back().first));
+    }
+    if (points.size() < 2) continue;
+    trend.words += fmt::format("{}{}: {}", trend.words.empty() ? "" : "; ", runs.title, words);
+    trend.series.push_back(std::move(points));
+  }
+  return trend;
+}
+
+Evidence judge_best_force(const ReportData& data, const WallsScope& scope, const std::string& sensor) {
+  constexpr double stated = 0.1;
+  const AlphaTrend trend =
+      alpha_trend(data, scope, sensor, "%", [](const Comparison& c) { return scaled(c.rmse_over_range, 100); });
+  Evidence ours{trend.words.empty() ? "" : "RMSE / range " + trend.words, true,
+                data.measured_series(sensor) == nullptr};
+  for (const auto& points : trend.series) {
+    const auto best = std::min_element(points.begin(), points.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    ours.agrees = ours.agrees && std::abs(best->first / stated - 1) < 1e-9;
+  }
+  return ours;
+}
+
+Evidence judge_oscillations(const ReportData& data, const WallsScope& scope, const std::string& sensor) {
+  const AlphaTrend trend = alpha_trend(data, scope, sensor, "N", [](const Comparison& c) { return c.noise.simulated; });
+  Evidence ours{trend.words.empty() ? "" : "noise " + trend.words, true};
+  for (const auto& points : trend.series)
+    for (std::size_t k = 1; k < points.size(); ++k)
+      ours.agrees = ours.agrees && points[k].second < points[k - 1].second;
+  return ours;
+}
+
+}  // namespace
+
+void add_alpha(Table& table, const ReportData& data) {
+  constexpr double limit = 0.001;
+  AlphaSides printed{limit};
+  for (const double alpha : published_alphas(data)) printed.put(alpha, published_mean(data, "wcsph", alpha));
+  const auto error = [&](const AnalysedRun& run) { return mean_impulse_error(data, run); };
+  for (const WallsScope& scope : alpha_scopes(data))
+    add(table, scope.named("α ≤ 0.001 gives better impulses"), printed.both() ? printed.words() : "",
+        judge_sides(data, scope, limit, error));
+}
+
+void add_force_statements(Table& table, const ReportData& data) {
+  const std::vector<WallsScope> scopes = alpha_scopes(data);
+  for (const PublishedFigure& figure : data.the_case.published.figures) {
+    const CaseSensor* sensor = data.the_case.find_sensor(figure.sensor);
+    if (sensor == nullptr || sensor->kind != SensorKind::force) continue;
+    const std::string paper = fmt::format("its figure {}; no numbers are printed", figure.number);
+    for (const WallsScope& scope : scopes)
+      add(table, scope.named("α = 0.1 gives the best force"), paper, judge_best_force(data, scope, figure.sensor));
+    for (const WallsScope& scope : scopes)
+      add(table, scope.named("Oscillations of the force grow as α falls"), paper,
+          judge_oscillations(data, scope, figure.sensor));
+  }
+}
+
+}  // namespace sluice::conclusions

@@ -80,6 +80,20 @@ BothMethods finest_of_both(const ReportData& data, const WallsScope& scope) {
   return finest;
 }
 
+ShownSensors shown_sensors(const ReportData& data, SensorKind kind) {
+  ShownSensors shown;
+  std::string numbers;
+  for (const PublishedFigure& figure : data.the_case.published.figures) {
+    const CaseSensor* sensor = data.the_case.find_sensor(figure.sensor);
+    if (sensor == nullptr || sensor->kind != kind) continue;
+    shown.names.push_back(figure.sensor);
+    numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", figure.number);
+  }
+  shown.evidence =
+      fmt::format("its {} {}; no numbers are printed", shown.names.size() > 1 ? "figures" : "figure", numbers);
+  return shown;
+}
+
 std::vector<double> published_alphas(const ReportData& data) {
   const PublishedRun* run = published_run(data.the_case, "wcsph");
   return run == nullptr ? std::vector<double>{} : run->alpha;

@@ -61,6 +61,27 @@ std::pair<std::optional<double>, const AnalysedRun*> least(const std::vector<con
   return {best, whose};
 }
 
+/// The sensors of a kind that the paper shows, and where: "its figures 4, 5, 6; no numbers are printed".
+struct ShownSensors {
+  std::vector<std::string> names;
+  std::string evidence;
+};
+ShownSensors shown_sensors(const ReportData& data, SensorKind kind);
+
+/// Mean of a quantity over some sensors' primary readings; missing when one of them is.
+template <class Measure>
+std::optional<double> mean_over(const std::vector<std::string>& sensors, const AnalysedRun& run, Measure measure) {
+  if (sensors.empty()) return std::nullopt;
+  double sum = 0;
+  for (const std::string& sensor : sensors) {
+    const SensorReading* reading = run.primary(sensor);
+    const std::optional<double> value = reading == nullptr ? std::nullopt : measure(reading->comparison);
+    if (!value) return std::nullopt;
+    sum += *value;
+  }
+  return sum / static_cast<double>(sensors.size());
+}
+
 /// The alphas that the paper prints for WCSPH.
 std::vector<double> published_alphas(const ReportData& data);
 
@@ -68,8 +89,12 @@ std::vector<double> published_alphas(const ReportData& data);
 void add_accuracy(Table& table, const ReportData& data);
 /// "WCSPH underestimates the impulses"
 void add_sign(Table& table, const ReportData& data);
+/// "MPS pressures oscillate less than WCSPH's", where the paper shows pressures.
+void add_pressure_oscillations(Table& table, const ReportData& data);
 /// "α ≤ 0.001 gives better impulses"
 void add_alpha(Table& table, const ReportData& data);
+/// "α ≤ 0.01 gives better wave heights", where the paper shows them.
+void add_wave_heights(Table& table, const ReportData& data);
 /// "α = 0.1 gives the best force" and "Oscillations of the force grow as α falls", for every force that it shows.
 void add_force_statements(Table& table, const ReportData& data);
 

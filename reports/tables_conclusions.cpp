@@ -94,6 +94,8 @@ Table conclusions_table(const ReportData& data) {
     conclusions::add_alpha(table, data);
     table.notes.push_back("Errors: mean unsigned deviation of the impulses, primary readings.");
   }
+  conclusions::add_wave_heights(table, data);
+  conclusions::add_pressure_oscillations(table, data);
   conclusions::add_force_statements(table, data);
   const BothMethods both = conclusions::finest_of_both(data);
   add_cost(table, data, both);

@@ -116,6 +116,27 @@ void add_alpha(Table& table, const ReportData& data) {
         judge_sides(data, scope, limit, error));
 }
 
+// "In good agreements, except for" alpha >= 0.1: without a number for good, the errors on both sides are compared.
+void add_wave_heights(Table& table, const ReportData& data) {
+  constexpr double limit = 0.01;
+  const ShownSensors shown = shown_sensors(data, SensorKind::wave_height);
+  if (shown.names.empty()) return;
+  const bool unmeasured = std::any_of(shown.names.begin(), shown.names.end(), [&](const std::string& sensor) {
+    return data.measured_series(sensor) == nullptr;
+  });
+  const auto error = [&](const AnalysedRun& run) {
+    return mean_over(shown.names, run, [](const Comparison& c) { return c.rmse_over_range; });
+  };
+  for (const WallsScope& scope : alpha_scopes(data)) {
+    Evidence ours = judge_sides(data, scope, limit, error);
+    if (!ours.words.empty()) ours.words = "RMSE / range " + ours.words;
+    ours.lacks_measurement = unmeasured;
+    add(table, scope.named("α ≤ 0.01 gives better wave heights"), shown.evidence, ours);
+  }
+  table.notes.push_back(
+      "Wave heights: RMSE over the measured range, in the mean over the probes that the paper shows.");
+}
+
 void add_force_statements(Table& table, const ReportData& data) {
   const std::vector<WallsScope> scopes = alpha_scopes(data);
   for (const PublishedFigure& figure : data.the_case.published.figures) {

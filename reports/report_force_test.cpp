@@ -115,6 +115,37 @@ TEST(ForceTables, ErrorsStandBesideWhatIsUncertain) {
   EXPECT_EQ(cell(table, "F_column impulse", "u_input").text, "missing");
 }
 
+TEST(ForceTables, SeriesWithoutAMeasurementLeaveNoHeadings) {
+  std::vector<fs::path> runs;
+  const auto write_series = [&](const std::string& case_name) {
+    runs.clear();
+    for (const double l0_m : {0.025, 0.0125})
+      for (const double alpha : {0.1, 0.01}) {
+        runs.push_back(fresh(fmt::format("force_headings_{}", runs.size())));
+        MadeForceRun made;
+        made.case_name = case_name;
+        made.l0_m = l0_m;
+        made.alpha = alpha;
+        synthetic::write_force_run(runs.back(), made);
+      }
+  };
+  write_series("aureli");
+  const ReportData unmeasured = analyse(runs);
+  ASSERT_EQ(alpha_series(unmeasured).size(), 2u);
+  EXPECT_TRUE(best_alpha_table(unmeasured).rows.empty());
+  EXPECT_TRUE(validation_uncertainty_table(unmeasured).rows.empty());
+  const fs::path out = fresh("force_headings_out");
+  ReportOptions options;
+  options.figures = false;
+  write_report(runs, out, options);
+  EXPECT_FALSE(fs::exists(out / "tables/best_alpha.csv"));
+  write_series("column");
+  const Table best = best_alpha_table(analyse(runs));
+  ASSERT_EQ(best.rows.size(), 6u) << "a heading and two quantities of each series";
+  EXPECT_TRUE(best.rows[0].is_group());
+  EXPECT_TRUE(best.rows[3].is_group());
+}
+
 TEST(ForceTables, StatementsOnTheForceNeedAMeasurementOrNot) {
   const fs::path viscous = fresh("force_statement_viscous");
   const fs::path thin = fresh("force_statement_thin");

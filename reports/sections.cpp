@@ -66,7 +66,7 @@ void add_alpha_section(std::vector<ReportSection>& sections, const FigureMaker& 
     append(section, force_alpha_figures(maker));
     section.blocks.push_back(force_alpha_table(maker.data));
   }
-  if (Table best = best_alpha_table(maker.data); best.rows.size() > 1) section.blocks.push_back(std::move(best));
+  if (Table best = best_alpha_table(maker.data); !best.rows.empty()) section.blocks.push_back(std::move(best));
   sections.push_back(std::move(section));
 }
 

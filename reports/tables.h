@@ -56,9 +56,11 @@ Table resolution_table(const ReportData& data);
 
 /// Bias and relative standard deviation of each method, quantity by quantity.
 Table bias_table(const ReportData& data);
-/// Comparison errors against what is known of the validation uncertainty; no rows without a series of resolutions.
+/// Comparison errors against what is known of the validation uncertainty; no rows without a series of resolutions, or
+/// without a measurement.
 Table validation_uncertainty_table(const ReportData& data);
-/// Which alpha has the smallest error for which quantity; no rows without runs that differ in alpha alone.
+/// Which alpha has the smallest error for which quantity; no rows without runs that differ in alpha alone, or without a
+/// measurement.
 Table best_alpha_table(const ReportData& data);
 
 /// The paper's statements with its evidence, ours, and a verdict.

@@ -21,6 +21,11 @@ TableCell interval(const std::optional<Interval>& range, int decimals) {
   return word(fmt::format("{} to {}", fixed(range->lower, decimals), fixed(range->upper, decimals)));
 }
 
+/// The heading of a series of which nothing can be said: without a measurement a table would be headings alone.
+void drop_bare_heading(Table& table) {
+  if (!table.rows.empty() && table.rows.back().is_group()) table.rows.pop_back();
+}
+
 }  // namespace
 
 Table bias_table(const ReportData& data) {
@@ -142,6 +147,7 @@ Table validation_uncertainty_table(const ReportData& data) {
     table.add_group(series.title);
     for (const UncertainQuantity& quantity : uncertain_quantities(data))
       add_uncertainty_row(table, data, quantity, series);
+    drop_bare_heading(table);
   }
   table.notes.push_back(
       "Standard uncertainties in the quantity's unit. u_num: grid convergence index over 1.15; missing where there are "
@@ -212,6 +218,7 @@ Table best_alpha_table(const ReportData& data) {
   for (const AlphaSeries& series : alpha_series(data)) {
     table.add_group(series.title);
     for (const BestQuantity& quantity : best_quantities(data)) add_best_row(table, series, quantity);
+    drop_bare_heading(table);
   }
   return table;
 }

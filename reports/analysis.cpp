@@ -135,10 +135,11 @@ void name_run(AnalysedRun& run, std::size_t index, const Case& c) {
   const RunRecord& r = run.record;
   run.key = fmt::format("R{}", index + 1);
   run.group = solver_name(r) + (r.walls.empty() ? "" : ", " + r.walls + " walls");
-  const std::string alpha = r.alpha() ? fmt::format("α = {}, ", shortest(*r.alpha())) : "";
-  const std::string rest =
-      fmt::format("{}l0 {:g} mm{}", alpha, 1000 * r.l0_m, parameters_text(changed_parameters(r, c)));
+  const std::string alpha = r.alpha() ? fmt::format("α = {}", shortest(*r.alpha())) : "";
+  const std::string changed = parameters_text(changed_parameters(r, c));
+  const std::string rest = fmt::format("{}{}l0 {:g} mm{}", alpha, alpha.empty() ? "" : ", ", 1000 * r.l0_m, changed);
   run.short_label = run.key + " " + rest;
+  run.method_label = fmt::format("{} {}{}{}{}", run.key, solver_name(r), alpha.empty() ? "" : ", ", alpha, changed);
   run.label = fmt::format("{} {}{}, {}", run.key, solver_name(r), r.walls.empty() ? "" : " " + r.walls, rest);
   run.directory = shown_directory(r.path);
 }

@@ -34,11 +34,12 @@ struct SensorReading {
 
 struct AnalysedRun {
   RunRecord record;
-  std::string key;          ///< "R1", the same in every table and figure of the report
-  std::string label;        ///< "R1 WCSPH extrapolated, α = 0.01, l0 20 mm"
-  std::string short_label;  ///< "R1 α = 0.01, l0 20 mm": beside `group`
-  std::string group;        ///< "WCSPH, extrapolated walls": runs that are drawn in one panel
-  std::string directory;    ///< as shown: never an absolute path
+  std::string key;           ///< "R1", the same in every table and figure of the report
+  std::string label;         ///< "R1 WCSPH extrapolated, α = 0.01, l0 20 mm"
+  std::string short_label;   ///< "R1 α = 0.01, l0 20 mm": beside `group`
+  std::string group;         ///< "WCSPH, extrapolated walls": runs that are drawn in one panel
+  std::string method_label;  ///< "R1 WCSPH, α = 0.01": beside walls and l0
+  std::string directory;     ///< as shown: never an absolute path
   std::vector<SensorReading> readings;
   std::vector<AcceptanceCheck> acceptance;  ///< every row of the case, in its order
   std::vector<std::string> problems;        ///< what the reader should know before trusting this run

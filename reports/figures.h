@@ -33,6 +33,8 @@ PlotCurve run_curve(const AnalysedRun& run, const Series& series, Window window,
 /// The whole window, one panel a group of runs: pressures and forces after a 10 ms running mean unless `raw`, wave
 /// heights and velocities as they are.
 std::vector<Picture> series_figures(const FigureMaker& maker, SensorKind kind, bool raw = false);
+/// The same over the whole window with both methods in each panel, for sensors of which the paper has such a figure.
+std::vector<Picture> method_figures(const FigureMaker& maker, SensorKind kind);
 /// The same wave heights as read by model `top`, where that is not the primary reading.
 std::vector<Picture> spray_figures(const FigureMaker& maker);
 /// The first impact on each sensor of a kind, raw.

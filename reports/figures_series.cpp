@@ -34,6 +34,19 @@ Cut spike_limit(const ReportData& data, const CaseSensor& sensor) {
           q.drawn_unit, ""};
 }
 
+/// "Pressure at P1"
+std::string headed(const CaseSensor& sensor) {
+  const Quantity& q = quantity_of(sensor.kind);
+  return fmt::format("{}{} {}", static_cast<char>(std::toupper(q.what.front())), q.what.substr(1), sensor.name);
+}
+
+std::string axis_remark(const Cut& cut) {
+  if (cut.words.empty()) return "";
+  return fmt::format(" The axis ends at {:.1f} {}; beyond it: {}.", cut.limit, cut.unit, cut.words);
+}
+
+constexpr const char* smoothed_words = "runs after a 10 ms running mean, ";
+
 /// Panels of one sensor over one range, so that groups of runs can be compared by eye.
 void share_range(std::vector<PlotPanel>& panels, const Cut& cut) {
   double low = 1e300;
@@ -78,16 +91,37 @@ std::vector<Picture> series_figures(const FigureMaker& maker, SensorKind kind, b
     auto panels = sensor_panels(data, sensor, {"", data.window, smoothed}, cut);
     if (panels.empty()) continue;
     share_range(panels, cut);
-    std::string caption = fmt::format("{}{} {}{}: {}primary reading.", static_cast<char>(std::toupper(q.what.front())),
-                                      q.what.substr(1), sensor.name, paper_remark(data, sensor.name),
-                                      smoothed   ? "runs after a 10 ms running mean, "
-                                      : q.spikes ? "raw, "
-                                                 : "");
-    if (!cut.words.empty())
-      caption += fmt::format(" The axis ends at {:.1f} {}; beyond it: {}.", cut.limit, cut.unit, cut.words);
+    const std::string caption =
+        fmt::format("{}{}: {}primary reading.{}", headed(sensor), paper_remark(data, sensor.name),
+                    smoothed   ? smoothed_words
+                    : q.spikes ? "raw, "
+                               : "",
+                    axis_remark(cut));
     pictures.push_back(draw_series(maker, q.stem + "_" + sensor.name + (raw ? "_raw" : ""), std::move(panels),
                                    with_remark(data, sensor, caption),
                                    fmt::format("{} over time, experiment and runs", axis_name(sensor))));
+  }
+  return pictures;
+}
+
+std::vector<Picture> method_figures(const FigureMaker& maker, SensorKind kind) {
+  std::vector<Picture> pictures;
+  if (!maker.enabled) return pictures;
+  const ReportData& data = maker.data;
+  const bool smoothed = quantity_of(kind).spikes;
+  for (const CaseSensor& sensor : data.the_case.sensors) {
+    const int number = published_number(data, sensor.name);
+    if (sensor.kind != kind || number == 0) continue;
+    Cut cut = spike_limit(data, sensor);
+    auto panels = method_panels(data, sensor, {"", data.window, smoothed}, cut);
+    if (panels.empty()) continue;
+    share_range(panels, cut);
+    const std::string caption =
+        fmt::format("{} as the paper's figure {} sets it out, both methods on one axis: {}primary readings.{}",
+                    headed(sensor), number, smoothed ? smoothed_words : "", axis_remark(cut));
+    pictures.push_back(draw_series(maker, "methods_" + sensor.name, std::move(panels),
+                                   with_remark(data, sensor, caption),
+                                   fmt::format("{} over time, experiment, MPS and WCSPH", axis_name(sensor))));
   }
   return pictures;
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "reports/figures.h"
 #include "reports/report.h"
 #include "reports/studies.h"
 #include "reports/synthetic_run.h"
@@ -282,6 +283,38 @@ TEST_F(UsersMeasurement, IsMissingUntilAFileOfTheStatedFormIsThere) {
   EXPECT_NEAR(*cell(force_peaks_table(data), "R1", "peak_deviation_percent", "acceleration").value, 20, 1);
   EXPECT_NEAR(*cell(force_impulses_table(data, "F_block"), "R1", "impulse_0_3_s_deviation_percent").value, 20, 0.5);
   EXPECT_EQ(cell(force_impulses_table(data, "F_block"), "R1", "inside_band_percent").text, "missing") << "no band";
+}
+
+TEST(ForceReport, ThePapersFigure12HasBothMethodsInOnePanelAParticleDistance) {
+  std::vector<fs::path> runs;
+  MadeForceRun made;
+  made.case_name = "aureli";
+  const auto add = [&] {
+    runs.push_back(fresh("force_methods_" + std::to_string(runs.size())));
+    synthetic::write_force_run(runs.back(), made);
+  };
+  for (const double l0_m : {0.02, 0.01}) {
+    made.l0_m = l0_m;
+    add();
+  }
+  EXPECT_TRUE(method_groups(analyse(runs), runs_a_panel).empty()) << "WCSPH alone";
+  made.solver = "mps";
+  made.walls = "dummies";
+  add();
+  made.l0_m = 0.02;
+  made.parameters = {{"block_distance_m", 0.45}};
+  add();
+  EXPECT_EQ(method_groups(analyse(runs), runs_a_panel).size(), 1U) << "the block stands elsewhere";
+  made.parameters = {};
+  add();
+  const ReportData data = analyse(runs);
+  const fs::path out = fresh("force_methods_out");
+  const auto pictures = method_figures({data, out}, SensorKind::force);
+  ASSERT_EQ(pictures.size(), 1U);
+  EXPECT_NE(pictures[0].caption.find("the paper's figure 12"), std::string::npos) << pictures[0].caption;
+  const std::string script = read(out / "figures/methods_F_block.gp");
+  for (const char* title : {"l0 = 20 mm, MPS and WCSPH", "l0 = 10 mm, MPS and WCSPH"})
+    EXPECT_NE(script.find(title), std::string::npos) << title;
 }
 
 TEST(ForceReport, LeavesOutWhatTheCaseHasNot) {

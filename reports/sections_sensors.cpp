@@ -11,6 +11,14 @@ void add_early_runs(ReportSection& section, const ReportData& data) {
   if (!early.rows.empty()) section.blocks.push_back(std::move(early));
 }
 
+/// Where the paper has such a figure and both methods were run at one particle distance.
+void add_both_methods(ReportSection& section, const FigureMaker& maker, SensorKind kind) {
+  const auto pictures = method_figures(maker, kind);
+  if (pictures.empty()) return;
+  section.blocks.push_back(Paragraph{"**Both methods on one axis**, as the paper draws them:"});
+  append(section, pictures);
+}
+
 ReportSection impulses_section(const FigureMaker& maker) {
   const ReportData& data = maker.data;
   ReportSection section{"impulses", "Pressure impulses", {}};
@@ -40,6 +48,7 @@ ReportSection pressures_section(const FigureMaker& maker) {
       "readings. "
       "Curves are thinned for drawing, keeping the lowest and highest sample of each pixel column."));
   append(section, series_figures(maker, SensorKind::pressure));
+  add_both_methods(section, maker, SensorKind::pressure);
   section.blocks.push_back(Paragraph{"**The first impact**, raw:"});
   append(section, impact_figures(maker, SensorKind::pressure));
   section.blocks.push_back(sensor_metrics_table(maker.data, SensorKind::pressure, false));
@@ -69,6 +78,7 @@ ReportSection waves_section(const FigureMaker& maker) {
   const auto spray = spray_figures(maker);
   if (!spray.empty()) section.blocks.push_back(Paragraph{"**The same probes with spray** (model `top`):"});
   append(section, spray);
+  add_both_methods(section, maker, SensorKind::wave_height);
   section.blocks.push_back(sensor_metrics_table(maker.data, SensorKind::wave_height, true));
   return section;
 }
@@ -87,6 +97,7 @@ ReportSection force_section(const FigureMaker& maker) {
   append(section, series_figures(maker, SensorKind::force, true));
   append(section, impact_figures(maker, SensorKind::force));
   append(section, route_figures(maker));
+  add_both_methods(section, maker, SensorKind::force);
   section.blocks.push_back(force_peaks_table(data));
   for (const std::string& sensor : data.sensors(SensorKind::force))
     section.blocks.push_back(force_impulses_table(data, sensor));
@@ -101,6 +112,7 @@ ReportSection velocity_section(const FigureMaker& maker) {
       "The fluid's kernel mean of one component of the velocity at a point. It reads zero where too little fluid is "
       "near, before the water comes and where it runs too shallow."));
   append(section, series_figures(maker, SensorKind::velocity));
+  add_both_methods(section, maker, SensorKind::velocity);
   section.blocks.push_back(sensor_metrics_table(maker.data, SensorKind::velocity, true));
   return section;
 }

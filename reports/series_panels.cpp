@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "reports/quantity.h"
+#include "reports/studies.h"
 
 namespace sluice {
 namespace {
@@ -33,11 +35,34 @@ void add_gap(PlotBand& band, PlotCurve& mean, double t) {
   mean.y.push_back(NAN);
 }
 
+/// Once a run, in however many panels it is drawn.
 void note_cut(Cut& cut, const AnalysedRun& run, const PlotCurve& curve) {
   const auto top = std::max_element(curve.y.begin(), curve.y.end());
   if (cut.limit <= 0 || top == curve.y.end() || *top <= cut.limit) return;
-  cut.words += fmt::format("{}{} {:.1f} {} at {:.3f} s", cut.words.empty() ? "" : ", ", run.key, *top, cut.unit,
-                           curve.x[static_cast<std::size_t>(top - curve.y.begin())]);
+  const std::string words = fmt::format("{} {:.1f} {} at {:.3f} s", run.key, *top, cut.unit,
+                                        curve.x[static_cast<std::size_t>(top - curve.y.begin())]);
+  if (cut.words.find(words) == std::string::npos) cut.words += (cut.words.empty() ? "" : ", ") + words;
+}
+
+/// The axes of a sensor with its measurement.
+PlotPanel panel_of(const ReportData& data, const CaseSensor& sensor, Window window) {
+  PlotPanel panel;
+  panel.x_label = "time [s]";
+  panel.y_label = axis_name(sensor);
+  panel.x_range = {window.begin_s, window.end_s};
+  add_experiment(panel, data, sensor, window);
+  return panel;
+}
+
+/// Adds a run's curve and returns the reading that it shows; nullptr where the run has none.
+const SensorReading* add_run(PlotPanel& panel, const AnalysedRun& run, const CaseSensor& sensor, const View& view,
+                             int style, Cut& cut) {
+  const SensorReading* reading = reading_of(run, sensor.name, view.model);
+  if (reading == nullptr || reading->series.t_s.empty()) return nullptr;
+  panel.curves.push_back(run_curve(run, view.smoothed ? running_mean(reading->series, smoothing_s) : reading->series,
+                                   view.window, style, quantity_of(sensor.kind).drawn_scale));
+  note_cut(cut, run, panel.curves.back());
+  return reading;
 }
 
 std::string run_keys(const ReportData& data) {
@@ -101,27 +126,36 @@ void add_experiment(PlotPanel& panel, const ReportData& data, const CaseSensor& 
 
 std::vector<PlotPanel> sensor_panels(const ReportData& data, const CaseSensor& sensor, const View& view, Cut& cut) {
   std::vector<PlotPanel> panels;
-  const double scale = quantity_of(sensor.kind).drawn_scale;
   for (const RunGroup& group : run_groups(data, runs_a_panel)) {
-    PlotPanel panel;
-    panel.x_label = "time [s]";
-    panel.y_label = axis_name(sensor);
-    panel.x_range = {view.window.begin_s, view.window.end_s};
-    add_experiment(panel, data, sensor, view.window);
+    PlotPanel panel = panel_of(data, sensor, view.window);
     int style = 0;
     std::string models;
-    for (const AnalysedRun* run : group.runs) {
-      const int own_style = style++;
-      const SensorReading* reading = reading_of(*run, sensor.name, view.model);
-      if (reading == nullptr || reading->series.t_s.empty()) continue;
-      models = reading->model.empty() ? "as delivered" : "read by " + reading->model;
-      panel.curves.push_back(run_curve(*run,
-                                       view.smoothed ? running_mean(reading->series, smoothing_s) : reading->series,
-                                       view.window, own_style, scale));
-      note_cut(cut, *run, panel.curves.back());
-    }
+    for (const AnalysedRun* run : group.runs)
+      if (const SensorReading* reading = add_run(panel, *run, sensor, view, style++, cut))
+        models = reading->model.empty() ? "as delivered" : "read by " + reading->model;
     panel.title = fmt::format("{}: {}{}", sensor.name, group.title, models.empty() ? "" : ", " + models);
     if (!models.empty()) panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
+std::vector<PlotPanel> method_panels(const ReportData& data, const CaseSensor& sensor, const View& view, Cut& cut) {
+  std::vector<PlotPanel> panels;
+  for (const RunGroup& group : method_groups(data, runs_a_panel)) {
+    PlotPanel panel = panel_of(data, sensor, view.window);
+    panel.title = fmt::format("{}: {}", sensor.name, group.title);
+    Cut with_these = cut;
+    std::set<std::string> methods;
+    int style = 0;
+    for (const AnalysedRun* run : group.runs) {
+      const SensorReading* reading = add_run(panel, *run, sensor, view, style++, with_these);
+      if (reading == nullptr) continue;
+      panel.curves.back().label = run->method_label + ", " + reading->model_name();
+      methods.insert(run->record.solver);
+    }
+    if (methods.size() < 2) continue;  // a run may lack this sensor
+    cut = with_these;
+    panels.push_back(std::move(panel));
   }
   return panels;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "reports/text.h"
 
@@ -139,6 +140,58 @@ std::vector<PlacementSeries> placement_series(const ReportData& data) {
                                  parameters_text(changes(data, runs.front()->record, &placement))),
                      runs});
     }
+  return out;
+}
+
+namespace {
+
+using Runs = std::vector<const AnalysedRun*>;
+
+/// One flow at one particle distance to one end, whatever the method.
+bool same_flow(const ReportData& data, const RunRecord& a, const RunRecord& b) {
+  return a.l0_m == b.l0_m && same_end(a, b) &&
+         std::all_of(data.the_case.placements.begin(), data.the_case.placements.end(),
+                     [&](const Placement& p) { return placed_at_m(p, a) == placed_at_m(p, b); });
+}
+
+Runs of_solver(const Runs& runs, const std::string& solver) {
+  Runs found;
+  for (const AnalysedRun* run : runs)
+    if (run->record.solver == solver) found.push_back(run);
+  return found;
+}
+
+/// Every MPS run meets every WCSPH run in one of the groups.
+void add_method_groups(std::vector<RunGroup>& groups, const std::string& title, std::span<const AnalysedRun* const> mps,
+                       std::span<const AnalysedRun* const> wcsph, std::size_t limit) {
+  for (std::size_t m = 0; m < mps.size(); m += limit - 1) {
+    const auto some_mps = mps.subspan(m, std::min(limit - 1, mps.size() - m));
+    const std::size_t room = limit - some_mps.size();
+    for (std::size_t w = 0; w < wcsph.size(); w += room) {
+      const auto some_wcsph = wcsph.subspan(w, std::min(room, wcsph.size() - w));
+      RunGroup group{title, Runs(some_mps.begin(), some_mps.end())};
+      group.runs.insert(group.runs.end(), some_wcsph.begin(), some_wcsph.end());
+      groups.push_back(std::move(group));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<RunGroup> method_groups(const ReportData& data, std::size_t limit) {
+  std::vector<RunGroup> out;
+  const auto alike = [&](const RunRecord& a, const RunRecord& b) { return same_flow(data, a, b); };
+  for (const Runs& runs : group_alike(data, alike)) {
+    const Runs mps = of_solver(runs, "mps");
+    const Runs wcsph = of_solver(runs, "wcsph");
+    for (auto from = wcsph.begin(); from != wcsph.end();) {  // runs come sorted by their walls
+      const AnalysedRun& first = **from;
+      const auto to = std::find_if(from, wcsph.end(), [&](const auto* run) { return run->group != first.group; });
+      add_method_groups(out, fmt::format("l0 = {:g} mm, MPS and {}", 1000 * first.record.l0_m, first.group), mps,
+                        {from, to}, std::max<std::size_t>(limit, 2));
+      from = to;
+    }
+  }
   return out;
 }
 

@@ -1,5 +1,5 @@
 // Which runs differ in one thing only: in their walls, in alpha, in the particle distance, or in a placement. Runs
-// whose other parameters differ are never set side by side as such.
+// whose other parameters differ are never set side by side as such. And which runs of the two methods belong together.
 #pragma once
 
 #include <optional>
@@ -27,6 +27,11 @@ struct ResolutionSeries {
   std::vector<const AnalysedRun*> runs;
 };
 std::vector<ResolutionSeries> resolution_series(const ReportData& data);
+
+/// Runs of both methods for one pair of axes, as the paper draws them: MPS first, so that it looks the same in every
+/// group, then WCSPH with one wall model. All have one particle distance, end and geometry; a group holds some of both
+/// methods and at most `limit` runs (two or more).
+std::vector<RunGroup> method_groups(const ReportData& data, std::size_t limit);
 
 /// Runs alike in all but one length that the case leaves open, at least two of them, smallest first.
 struct PlacementSeries {

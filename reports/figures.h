@@ -44,6 +44,9 @@ std::vector<Picture> route_figures(const FigureMaker& maker);
 /// The case's boxes at the start in plan and elevation, with their lengths.
 std::vector<Picture> geometry_figures(const FigureMaker& maker);
 
+/// The faces of bodies with two pressure sensors or more, each sensor by its name.
+std::vector<Picture> sensor_face_figures(const FigureMaker& maker);
+
 /// One curve for each series of runs that differ in alpha alone: what `measure` says of the sensor's primary reading.
 PlotPanel alpha_panel(const ReportData& data, const std::string& sensor, const std::string& y_label,
                       const std::function<std::optional<double>(const Comparison&)>& measure);

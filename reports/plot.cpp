@@ -166,6 +166,7 @@ std::string panel_script(const PlotPanel& panel, const std::string& data_name, D
     out += fmt::format("set xtics nomirror {} ({})\n", panel.slanted_ticks ? "rotate by 32 right" : "norotate",
                        tick_words(panel.x_ticks));
   if (panel.slanted_ticks) out += "set rmargin 3\n";
+  out += panel.equal_scale ? "set size ratio -1\n" : "set size noratio\n";
   std::vector<std::string> plots;
   for (const PlotBand& band : panel.bands) add_band(band, data_name, data, plots);
   for (const PlotCurve& curve : panel.curves) add_curve(curve, data_name, data, plots);

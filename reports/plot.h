@@ -50,6 +50,7 @@ struct PlotPanel {
   bool slanted_ticks = false;        ///< long words: written at an angle
   std::vector<PlotBand> bands;
   std::vector<PlotCurve> curves;
+  bool equal_scale = false;  ///< a length is as long across as it is up: for drawings of bodies
 };
 
 struct PlotFigure {

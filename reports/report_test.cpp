@@ -442,6 +442,30 @@ TEST_F(BothMethods, AreDrawnForTheSensorsOfThePapersFigures) {
     EXPECT_NE(drawn.find(curve), std::string::npos) << curve;
 }
 
+TEST(ReportFigures, EveryPressureSensorIsNamedOnTheFaceThatCarriesIt) {
+  const fs::path run = fresh("faces_run");
+  const fs::path out = fresh("faces_out");
+  MadeRun made;
+  made.t_end_s = 1;
+  synthetic::write_run(run, made);
+  ReportData data = analyse({run});
+  ASSERT_EQ(sensor_face_figures({data, out}).size(), 1U);
+  const std::string drawn = read(out / "figures/pressure_sensors.dat");
+  for (const std::string& sensor : data.sensors(SensorKind::pressure))
+    EXPECT_NE(drawn.find("\"" + sensor + "\""), std::string::npos) << sensor;
+  EXPECT_NE(drawn.find("0.4745 0.021 \"P1\""), std::string::npos) << "y across, z up";
+  EXPECT_NE(drawn.find("0.5255 0.8035 \"P5\""), std::string::npos) << "the longer side across";
+  const std::string script = read(out / "figures/pressure_sensors.gp");
+  for (const char* words : {"Face x+ of the obstacle", "Face z+ of the obstacle", "set size ratio -1"})
+    EXPECT_NE(script.find(words), std::string::npos) << words;
+
+  auto& sensors = data.the_case.sensors;
+  std::erase_if(sensors, [](const CaseSensor& s) { return s.name != "P1" && s.name != "P5"; });
+  EXPECT_EQ(sensor_face_figures({data, out}).size(), 1U) << "two faces of one body";
+  sensors.pop_back();
+  EXPECT_TRUE(sensor_face_figures({data, out}).empty()) << "one sensor alone";
+}
+
 class WholeReport : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -509,7 +533,7 @@ TEST_F(WholeReport, WritesEveryFormat) {
   for (const char* file :
        {"report.md", "tables/table1_parameters.csv", "tables/table2_impulses.tex", "tables/acceptance.csv",
         "figures/pressure_P1.svg", "figures/pressure_P1.gp", "figures/pressure_P1.dat", "figures/impact_P8.svg",
-        "figures/wave_H4.svg", "figures/walls_R1_R2.svg", "figures/snapshots_R1.png"})
+        "figures/wave_H4.svg", "figures/pressure_sensors.svg", "figures/walls_R1_R2.svg", "figures/snapshots_R1.png"})
     EXPECT_TRUE(fs::exists(out / file)) << file;
   const std::string markdown = read(out / "report.md");
   EXPECT_NE(markdown.find("(figures/wave_H2.svg)"), std::string::npos);

@@ -151,6 +151,7 @@ void add_geometry_section(std::vector<ReportSection>& sections, const FigureMake
   if (pictures.empty()) return;
   ReportSection section{"geometry", "Geometry", {}};
   append(section, pictures);
+  append(section, sensor_face_figures(maker));
   sections.push_back(std::move(section));
 }
 

@@ -187,9 +187,10 @@ std::string snapshot_caption(const Case& the_case, const AnalysedRun& run, const
   const Scale& scale = scale_of(the_case);
   return fmt::format(
       "{}: particles at t = {} s{}, coloured by {}; values above {:g} take the brightest colour. Only what nothing "
-      "nearer hides is drawn; the tank's own walls are left out{}.",
+      "nearer hides is drawn; the tank's own walls are left out{}.{}",
       run.label, times, figure, scale.symbol, scale.colour.largest,
-      anything_moves(the_case) ? ", and so is a body that has moved out of the tank" : "");
+      anything_moves(the_case) ? ", and so is a body that has moved out of the tank" : "",
+      number > 0 ? " The experiment's photographs are not part of the comparison." : "");
 }
 
 Picture draw_snapshots(const FigureMaker& maker, const AnalysedRun& run, const std::vector<SnapshotEntry>& entries) {

@@ -340,16 +340,20 @@ TEST(ForceReport, LeavesOutWhatTheCaseHasNot) {
   EXPECT_TRUE(fs::exists(out / "tables/parameters.csv")) << "no table of a paper";
 }
 
-TEST(ForceReport, OfTheUnmeasuredCaseSaysSoAndNumbersThePapersTable) {
+TEST(ForceReport, OfTheUnmeasuredCaseSaysSoAndNumbersThePapersTableAndFigures) {
   const fs::path run = fresh("force_aureli_run");
   const fs::path out = fresh("force_aureli_out");
   MadeForceRun made;
   made.case_name = "aureli";
   made.l0_m = 0.02;
   synthetic::write_force_run(run, made);
+  synthetic::write_snapshots(run, {0.3, 0.6}, 0.04, "aureli");
   write_report({run}, out);
   const std::string page = read(out / "report.md");
   EXPECT_NE(page.find("(the paper's figure 12)"), std::string::npos);
+  EXPECT_NE(page.find("particles at t = 0.30, 0.60 s (the paper's figure 11)"), std::string::npos);
+  EXPECT_NE(page.find("The experiment's photographs are not part of the comparison."), std::string::npos);
+  EXPECT_TRUE(fs::exists(out / "figures/snapshots_R1.png"));
   EXPECT_NE(page.find("Measured: missing."), std::string::npos);
   EXPECT_NE(page.find("(the paper's figure 10)"), std::string::npos);
   EXPECT_TRUE(fs::exists(out / "tables/table3_parameters.csv"));

@@ -190,8 +190,9 @@ void write_external_run(const std::filesystem::path& directory, double scale) {
                                            "  \"l0_m\": 0.02 }\n";
 }
 
-void write_snapshots(const std::filesystem::path& directory, const std::vector<double>& times_s, double l0_m) {
-  const Case c = load_case("kleefsman");
+void write_snapshots(const std::filesystem::path& directory, const std::vector<double>& times_s, double l0_m,
+                     const std::string& case_name) {
+  const Case c = load_case(case_name);
   ParticleSnapshot snapshot;
   for (const Box& box : c.fluid)
     for (double z = box.lower.z + 0.5 * l0_m; z < box.upper.z; z += l0_m)

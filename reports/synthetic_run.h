@@ -45,7 +45,8 @@ void write_force_run(const std::filesystem::path& directory, const MadeForceRun&
 /// Another code's delivery: three lines of run.json, plain columns P1 and H2 only.
 void write_external_run(const std::filesystem::path& directory, double scale);
 
-/// Snapshots of a still column at the given times.
-void write_snapshots(const std::filesystem::path& directory, const std::vector<double>& times_s, double l0_m);
+/// Snapshots of a case's water at rest at the given times.
+void write_snapshots(const std::filesystem::path& directory, const std::vector<double>& times_s, double l0_m,
+                     const std::string& case_name = "kleefsman");
 
 }  // namespace sluice::synthetic

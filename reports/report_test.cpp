@@ -7,11 +7,10 @@
 #include <regex>
 #include <sstream>
 
-#include "reports/series_panels.h"
-#include "reports/studies.h"
 #include "reports/synthetic_run.h"
 #include "reports/tables.h"
 #include "reports/test_files.h"
+#include "reports/test_tables.h"
 
 namespace sluice {
 namespace {
@@ -19,29 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using synthetic::MadeRun;
 
+using test_files::cell;
 using test_files::fresh;
 using test_files::read;
-
-std::size_t column_of(const Table& table, const std::string& csv_name) {
-  for (std::size_t i = 0; i < table.columns.size(); ++i)
-    if (table.columns[i].csv_name == csv_name) return i;
-  ADD_FAILURE() << "no column " << csv_name << " in " << table.name;
-  return 0;
-}
-
-/// The first row whose first cell begins with `start`, and whose second is `second` where one is given.
-const TableRow& row_of(const Table& table, const std::string& start, const std::string& second = "") {
-  for (const TableRow& row : table.rows)
-    if (!row.is_group() && row.cells[0].text.starts_with(start) && (second.empty() || row.cells[1].text == second))
-      return row;
-  ADD_FAILURE() << "no row " << start << " in " << table.name;
-  return table.rows.front();
-}
-
-const TableCell& cell(const Table& table, const std::string& start, const std::string& csv_name,
-                      const std::string& second = "") {
-  return row_of(table, start, second).cells[column_of(table, csv_name)];
-}
 
 TEST(ReportTables, KnownScaleAndShiftGiveKnownNumbers) {
   const fs::path dir = fresh("known");
@@ -134,88 +113,6 @@ TEST(ReportTables, LabelsSayWhatARunHasSetOtherwiseThanTheCase) {
   std::ofstream(dir / "run.json") << manifest;
   EXPECT_EQ(analyse({dir}).runs[0].label, "R1 WCSPH extrapolated, α = 0.01, l0 20 mm, delta = 0.02")
       << "friction 0 is the walls' own default";
-}
-
-TEST(ReportTables, ThePapersStatementsAreJudgedByTheRuns) {
-  const fs::path wcsph = fresh("statements_wcsph");
-  const fs::path viscous = fresh("statements_viscous");
-  const fs::path mps = fresh("statements_mps");
-  MadeRun run;
-  run.alpha = 0.001;
-  run.scale = 0.9;
-  synthetic::write_run(wcsph, run);
-  const Table alone = conclusions_table(analyse({wcsph}));
-  ASSERT_EQ(alone.rows.size(), 7U);
-  EXPECT_EQ(alone.rows[0].cells[3].text, "missing");
-  EXPECT_EQ(alone.rows[1].cells[3].text, "agrees") << "all too low";
-  run.alpha = 0.1;
-  run.scale = 0.7;
-  synthetic::write_run(viscous, run);
-  run = {};
-  run.solver = "mps";
-  run.walls = "dummies";
-  run.scale = 1.2;
-  synthetic::write_run(mps, run);
-  const Table table = conclusions_table(analyse({wcsph, viscous, mps}));
-  EXPECT_EQ(table.rows[0].cells[1].text, "MPS 7.8 %, WCSPH 24.1 % to 36.2 %");
-  EXPECT_EQ(table.rows[0].cells[3].text, "does not agree") << "20 % against 10 %";
-  EXPECT_EQ(table.rows[2].cells[3].text, "agrees") << table.rows[2].cells[2].text;
-  EXPECT_EQ(cell(table, "MPS costs 1.8 times WCSPH", "paper").text, "1.8 times");
-  EXPECT_EQ(cell(table, "MPS costs 1.8 times WCSPH", "verdict").text, "does not agree") << "the same cost";
-  EXPECT_EQ(cell(table, "WCSPH takes many more steps than MPS", "paper").text, "7.9 times");
-}
-
-/// Ours too high, the paper's too low: pooled they would say that WCSPH is as good as the better of them.
-TEST(ReportTables, EachWallModelHasItsOwnVerdict) {
-  std::vector<fs::path> runs;
-  const auto write = [&](const MadeRun& made) {
-    runs.push_back(fresh("statement_walls_" + std::to_string(runs.size())));
-    synthetic::write_run(runs.back(), made);
-  };
-  write({.alpha = 0.1, .scale = 1.1});
-  write({.alpha = 0.001, .scale = 1.2});
-  write({.solver = "mps", .walls = "dummies", .scale = 0.8});
-  EXPECT_EQ(conclusions_table(analyse(runs)).rows[0].cells[0].text, "MPS is more accurate in impulse")
-      << "one wall model needs no name";
-  write({.walls = "dynamic", .l0_m = 0.03, .alpha = 0.1, .scale = 0.5});
-  write({.walls = "dynamic", .l0_m = 0.03, .alpha = 0.001, .scale = 0.6});
-  write({.solver = "mps", .walls = "dummies", .l0_m = 0.03, .scale = 0.8});
-  const Table table = conclusions_table(analyse(runs));
-  const auto verdict = [&](const std::string& statement, const std::string& walls) {
-    return cell(table, statement + ", " + walls, "verdict").text;
-  };
-  EXPECT_EQ(verdict("MPS is more accurate in impulse", "extrapolated walls"), "does not agree") << "20 % against 10 %";
-  EXPECT_EQ(verdict("MPS is more accurate in impulse", "dynamic walls (the paper's)"), "agrees") << "20 against 40 %";
-  EXPECT_EQ(verdict("WCSPH underestimates the impulses", "extrapolated walls"), "does not agree");
-  EXPECT_EQ(verdict("WCSPH underestimates the impulses", "dynamic walls (the paper's)"), "agrees");
-  EXPECT_EQ(verdict("α ≤ 0.001 gives better impulses", "extrapolated walls"), "does not agree");
-  EXPECT_EQ(verdict("α ≤ 0.001 gives better impulses", "dynamic walls (the paper's)"), "agrees");
-  EXPECT_EQ(cell(table, "WCSPH underestimates the impulses, dynamic", "runs").text, "6 of 6 impulses too low");
-  EXPECT_TRUE(cell(table, "MPS is more accurate in impulse, dynamic", "runs").text.ends_with("l0 30 mm)"))
-      << "the finest that has both with these walls";
-}
-
-TEST(ReportTables, StatementsOnWaveHeightsAndOnOscillationsOfPressures) {
-  const fs::path thin = fresh("statement_thin");
-  const fs::path viscous = fresh("statement_viscous");
-  const fs::path mps = fresh("statement_quiet");
-  const std::string waves = "α ≤ 0.01 gives better wave heights";
-  const std::string noise = "MPS pressures oscillate less than WCSPH's";
-  synthetic::write_run(viscous, {.alpha = 0.1, .scale = 0.8, .noise_Pa = 300});
-  synthetic::write_run(thin, {.scale = 0.95, .noise_Pa = 400});
-  const Table alone = conclusions_table(analyse({thin, viscous}));
-  EXPECT_EQ(cell(alone, noise, "verdict").text, "missing") << "no MPS";
-  synthetic::write_run(mps, {.solver = "mps", .walls = "dummies", .noise_Pa = 50});
-  const Table good = conclusions_table(analyse({thin, viscous, mps}));
-  EXPECT_EQ(cell(good, waves, "paper").text, "its figures 4, 5, 6; no numbers are printed");
-  EXPECT_EQ(cell(good, waves, "verdict").text, "agrees") << cell(good, waves, "runs").text;
-  EXPECT_EQ(cell(good, noise, "paper").text, "its figures 7, 8, 9; no numbers are printed");
-  EXPECT_EQ(cell(good, noise, "verdict").text, "agrees") << cell(good, noise, "runs").text;
-  synthetic::write_run(thin, {.scale = 0.7, .noise_Pa = 400});
-  synthetic::write_run(mps, {.solver = "mps", .walls = "dummies", .noise_Pa = 1000});
-  const Table bad = conclusions_table(analyse({thin, viscous, mps}));
-  EXPECT_EQ(cell(bad, waves, "verdict").text, "does not agree") << cell(bad, waves, "runs").text;
-  EXPECT_EQ(cell(bad, noise, "verdict").text, "does not agree") << cell(bad, noise, "runs").text;
 }
 
 TEST(ReportTables, UnitsThatCannotBeRightAreDoubted) {
@@ -345,125 +242,6 @@ TEST(ReportTables, AcceptanceNamesPassFailAndNotApplicable) {
   EXPECT_EQ(cell(table, "impulse deviation P1 wall", "R2").text, "n/a") << "the row is for α = 0.01";
   EXPECT_NE(cell(table, "impulse deviation P1 wall", "R3").text.find("FAIL"), std::string::npos);
   EXPECT_NEAR(*cell(table, "impulse deviation P1 wall", "R3").value, 0.3, 1e-3);
-}
-
-std::vector<std::string> labels_of_runs(const PlotPanel& panel) {
-  std::vector<std::string> labels;
-  for (const PlotCurve& curve : panel.curves)
-    if (curve.look == CurveLook::run) labels.push_back(curve.label);
-  return labels;
-}
-
-/// MPS at l0 = 20 mm beside WCSPH: two alphas and both walls there, and one run at 30 mm.
-class BothMethods : public testing::Test {
- protected:
-  void SetUp() override {
-    MadeRun made;
-    made.t_end_s = 1;
-    add(made);
-    made.alpha = 0.001;
-    add(made);
-    made.walls = "dynamic";
-    add(made);
-    made.walls = "extrapolated";
-    made.l0_m = 0.03;
-    add(made);
-    made.solver = "mps";
-    made.walls = "dummies";
-    made.l0_m = 0.02;
-    add(made);
-  }
-  void add(const MadeRun& made) {
-    runs_.push_back(fresh("methods_" + std::to_string(runs_.size())));
-    synthetic::write_run(runs_.back(), made);
-  }
-  /// What is drawn of P1; the words say which runs go beyond 1 Pa.
-  std::vector<PlotPanel> panels(const ReportData& data) {
-    cut_ = {0.001, "kPa", ""};
-    return method_panels(data, *data.the_case.find_sensor("P1"), {"", data.window, true}, cut_);
-  }
-
-  std::vector<fs::path> runs_;
-  Cut cut_;
-};
-
-TEST_F(BothMethods, ShareAPanelOfOneParticleDistanceAndWallModel) {
-  const auto drawn = panels(analyse(runs_));
-  ASSERT_EQ(drawn.size(), 2U);
-  EXPECT_EQ(drawn[0].title, "P1: l0 = 20 mm, MPS and WCSPH, extrapolated walls");
-  EXPECT_EQ(labels_of_runs(drawn[0]), (std::vector<std::string>{"R1 MPS, α = 0.01, wall", "R3 WCSPH, α = 0.01, wall",
-                                                                "R4 WCSPH, α = 0.001, wall"}));
-  EXPECT_EQ(drawn[1].title, "P1: l0 = 20 mm, MPS and WCSPH, dynamic walls");
-  EXPECT_EQ(labels_of_runs(drawn[1]),
-            (std::vector<std::string>{"R1 MPS, α = 0.01, wall", "R5 WCSPH, α = 0.001, kernel"}));
-  for (const PlotPanel& panel : drawn) EXPECT_FALSE(panel.bands.empty()) << "the experiment";
-  EXPECT_EQ(cut_.words.find("R1 "), 0U) << cut_.words;
-  EXPECT_EQ(cut_.words.rfind("R1 "), 0U) << "once, though it is in both panels: " << cut_.words;
-}
-
-TEST_F(BothMethods, NeedEqualParticleDistanceAndEndAndTheSensor) {
-  ReportData data = analyse(runs_);
-  data.runs.front().readings.clear();
-  EXPECT_TRUE(panels(data).empty()) << "MPS without a reading";
-  EXPECT_EQ(cut_.words, "");
-  const fs::path mps = runs_.back();
-  auto manifest = nlohmann::json::parse(read(mps / "run.json"));
-  manifest["t_end_s"] = 3.0;
-  std::ofstream(mps / "run.json") << manifest;
-  EXPECT_TRUE(panels(analyse(runs_)).empty()) << "another end";
-  manifest["t_end_s"] = 6.0;
-  manifest["l0_m"] = 0.015;
-  std::ofstream(mps / "run.json") << manifest;
-  EXPECT_TRUE(panels(analyse(runs_)).empty()) << "another particle distance";
-  runs_.pop_back();
-  EXPECT_TRUE(panels(analyse(runs_)).empty()) << "WCSPH alone";
-  EXPECT_TRUE(panels(analyse({mps})).empty()) << "MPS alone";
-}
-
-TEST_F(BothMethods, AreDividedWhereAPanelHasNoRoom) {
-  const ReportData data = analyse(runs_);
-  const auto groups = method_groups(data, 2);
-  ASSERT_EQ(groups.size(), 3U);
-  for (std::size_t k = 0; k < groups.size(); ++k) {
-    ASSERT_EQ(groups[k].runs.size(), 2U);
-    EXPECT_EQ(groups[k].runs[0]->key, "R1");
-    EXPECT_EQ(groups[k].runs[1]->key, "R" + std::to_string(k + 3));
-  }
-}
-
-TEST_F(BothMethods, AreDrawnForTheSensorsOfThePapersFigures) {
-  const ReportData data = analyse(runs_);
-  const fs::path out = fresh("methods_out");
-  const auto pictures = method_figures({data, out}, SensorKind::pressure);
-  ASSERT_EQ(pictures.size(), 3U) << "P1 to P3";
-  EXPECT_NE(pictures[0].caption.find("the paper's figure 7"), std::string::npos) << pictures[0].caption;
-  const std::string drawn = read(out / "figures/methods_P1.dat");
-  for (const char* curve : {"# curve: R1 MPS", "# curve: R3 WCSPH", "# curve: experiment"})
-    EXPECT_NE(drawn.find(curve), std::string::npos) << curve;
-}
-
-TEST(ReportFigures, EveryPressureSensorIsNamedOnTheFaceThatCarriesIt) {
-  const fs::path run = fresh("faces_run");
-  const fs::path out = fresh("faces_out");
-  MadeRun made;
-  made.t_end_s = 1;
-  synthetic::write_run(run, made);
-  ReportData data = analyse({run});
-  ASSERT_EQ(sensor_face_figures({data, out}).size(), 1U);
-  const std::string drawn = read(out / "figures/pressure_sensors.dat");
-  for (const std::string& sensor : data.sensors(SensorKind::pressure))
-    EXPECT_NE(drawn.find("\"" + sensor + "\""), std::string::npos) << sensor;
-  EXPECT_NE(drawn.find("0.4745 0.021 \"P1\""), std::string::npos) << "y across, z up";
-  EXPECT_NE(drawn.find("0.5255 0.8035 \"P5\""), std::string::npos) << "the longer side across";
-  const std::string script = read(out / "figures/pressure_sensors.gp");
-  for (const char* words : {"Face x+ of the obstacle", "Face z+ of the obstacle", "set size ratio -1"})
-    EXPECT_NE(script.find(words), std::string::npos) << words;
-
-  auto& sensors = data.the_case.sensors;
-  std::erase_if(sensors, [](const CaseSensor& s) { return s.name != "P1" && s.name != "P5"; });
-  EXPECT_EQ(sensor_face_figures({data, out}).size(), 1U) << "two faces of one body";
-  sensors.pop_back();
-  EXPECT_TRUE(sensor_face_figures({data, out}).empty()) << "one sensor alone";
 }
 
 class WholeReport : public testing::Test {

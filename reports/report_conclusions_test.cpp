@@ -1,0 +1,102 @@
+// The paper's statements, judged by runs whose errors are known.
+#include <gtest/gtest.h>
+
+#include "reports/report.h"
+#include "reports/synthetic_run.h"
+#include "reports/tables.h"
+#include "reports/test_files.h"
+#include "reports/test_tables.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using synthetic::MadeRun;
+
+using test_files::cell;
+using test_files::fresh;
+
+TEST(ReportTables, ThePapersStatementsAreJudgedByTheRuns) {
+  const fs::path wcsph = fresh("statements_wcsph");
+  const fs::path viscous = fresh("statements_viscous");
+  const fs::path mps = fresh("statements_mps");
+  MadeRun run;
+  run.alpha = 0.001;
+  run.scale = 0.9;
+  synthetic::write_run(wcsph, run);
+  const Table alone = conclusions_table(analyse({wcsph}));
+  ASSERT_EQ(alone.rows.size(), 7U);
+  EXPECT_EQ(alone.rows[0].cells[3].text, "missing");
+  EXPECT_EQ(alone.rows[1].cells[3].text, "agrees") << "all too low";
+  run.alpha = 0.1;
+  run.scale = 0.7;
+  synthetic::write_run(viscous, run);
+  run = {};
+  run.solver = "mps";
+  run.walls = "dummies";
+  run.scale = 1.2;
+  synthetic::write_run(mps, run);
+  const Table table = conclusions_table(analyse({wcsph, viscous, mps}));
+  EXPECT_EQ(table.rows[0].cells[1].text, "MPS 7.8 %, WCSPH 24.1 % to 36.2 %");
+  EXPECT_EQ(table.rows[0].cells[3].text, "does not agree") << "20 % against 10 %";
+  EXPECT_EQ(table.rows[2].cells[3].text, "agrees") << table.rows[2].cells[2].text;
+  EXPECT_EQ(cell(table, "MPS costs 1.8 times WCSPH", "paper").text, "1.8 times");
+  EXPECT_EQ(cell(table, "MPS costs 1.8 times WCSPH", "verdict").text, "does not agree") << "the same cost";
+  EXPECT_EQ(cell(table, "WCSPH takes many more steps than MPS", "paper").text, "7.9 times");
+}
+
+/// Ours too high, the paper's too low: pooled they would say that WCSPH is as good as the better of them.
+TEST(ReportTables, EachWallModelHasItsOwnVerdict) {
+  std::vector<fs::path> runs;
+  const auto write = [&](const MadeRun& made) {
+    runs.push_back(fresh("statement_walls_" + std::to_string(runs.size())));
+    synthetic::write_run(runs.back(), made);
+  };
+  write({.alpha = 0.1, .scale = 1.1});
+  write({.alpha = 0.001, .scale = 1.2});
+  write({.solver = "mps", .walls = "dummies", .scale = 0.8});
+  EXPECT_EQ(conclusions_table(analyse(runs)).rows[0].cells[0].text, "MPS is more accurate in impulse")
+      << "one wall model needs no name";
+  write({.walls = "dynamic", .l0_m = 0.03, .alpha = 0.1, .scale = 0.5});
+  write({.walls = "dynamic", .l0_m = 0.03, .alpha = 0.001, .scale = 0.6});
+  write({.solver = "mps", .walls = "dummies", .l0_m = 0.03, .scale = 0.8});
+  const Table table = conclusions_table(analyse(runs));
+  const auto verdict = [&](const std::string& statement, const std::string& walls) {
+    return cell(table, statement + ", " + walls, "verdict").text;
+  };
+  EXPECT_EQ(verdict("MPS is more accurate in impulse", "extrapolated walls"), "does not agree") << "20 % against 10 %";
+  EXPECT_EQ(verdict("MPS is more accurate in impulse", "dynamic walls (the paper's)"), "agrees") << "20 against 40 %";
+  EXPECT_EQ(verdict("WCSPH underestimates the impulses", "extrapolated walls"), "does not agree");
+  EXPECT_EQ(verdict("WCSPH underestimates the impulses", "dynamic walls (the paper's)"), "agrees");
+  EXPECT_EQ(verdict("α ≤ 0.001 gives better impulses", "extrapolated walls"), "does not agree");
+  EXPECT_EQ(verdict("α ≤ 0.001 gives better impulses", "dynamic walls (the paper's)"), "agrees");
+  EXPECT_EQ(cell(table, "WCSPH underestimates the impulses, dynamic", "runs").text, "6 of 6 impulses too low");
+  EXPECT_TRUE(cell(table, "MPS is more accurate in impulse, dynamic", "runs").text.ends_with("l0 30 mm)"))
+      << "the finest that has both with these walls";
+}
+
+TEST(ReportTables, StatementsOnWaveHeightsAndOnOscillationsOfPressures) {
+  const fs::path thin = fresh("statement_thin");
+  const fs::path viscous = fresh("statement_viscous");
+  const fs::path mps = fresh("statement_quiet");
+  const std::string waves = "α ≤ 0.01 gives better wave heights";
+  const std::string noise = "MPS pressures oscillate less than WCSPH's";
+  synthetic::write_run(viscous, {.alpha = 0.1, .scale = 0.8, .noise_Pa = 300});
+  synthetic::write_run(thin, {.scale = 0.95, .noise_Pa = 400});
+  const Table alone = conclusions_table(analyse({thin, viscous}));
+  EXPECT_EQ(cell(alone, noise, "verdict").text, "missing") << "no MPS";
+  synthetic::write_run(mps, {.solver = "mps", .walls = "dummies", .noise_Pa = 50});
+  const Table good = conclusions_table(analyse({thin, viscous, mps}));
+  EXPECT_EQ(cell(good, waves, "paper").text, "its figures 4, 5, 6; no numbers are printed");
+  EXPECT_EQ(cell(good, waves, "verdict").text, "agrees") << cell(good, waves, "runs").text;
+  EXPECT_EQ(cell(good, noise, "paper").text, "its figures 7, 8, 9; no numbers are printed");
+  EXPECT_EQ(cell(good, noise, "verdict").text, "agrees") << cell(good, noise, "runs").text;
+  synthetic::write_run(thin, {.scale = 0.7, .noise_Pa = 400});
+  synthetic::write_run(mps, {.solver = "mps", .walls = "dummies", .noise_Pa = 1000});
+  const Table bad = conclusions_table(analyse({thin, viscous, mps}));
+  EXPECT_EQ(cell(bad, waves, "verdict").text, "does not agree") << cell(bad, waves, "runs").text;
+  EXPECT_EQ(cell(bad, noise, "verdict").text, "does not agree") << cell(bad, noise, "runs").text;
+}
+
+}  // namespace
+}  // namespace sluice

@@ -1,4 +1,5 @@
 // Both methods on one axis, and sensors on the faces that carry them: figures after the paper's own.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -63,11 +64,11 @@ TEST_F(BothMethods, ShareAPanelOfOneParticleDistanceAndWallModel) {
   const auto drawn = panels(analyse(runs_));
   ASSERT_EQ(drawn.size(), 2U);
   EXPECT_EQ(drawn[0].title, "P1: l0 = 20 mm, MPS and WCSPH, extrapolated walls");
-  EXPECT_EQ(labels_of_runs(drawn[0]), (std::vector<std::string>{"R1 MPS, α = 0.01, wall", "R3 WCSPH, α = 0.01, wall",
+  EXPECT_EQ(labels_of_runs(drawn[0]), (std::vector<std::string>{"R1 MPS, α = 0.001, wall", "R3 WCSPH, α = 0.01, wall",
                                                                 "R4 WCSPH, α = 0.001, wall"}));
   EXPECT_EQ(drawn[1].title, "P1: l0 = 20 mm, MPS and WCSPH, dynamic walls");
   EXPECT_EQ(labels_of_runs(drawn[1]),
-            (std::vector<std::string>{"R1 MPS, α = 0.01, wall", "R5 WCSPH, α = 0.001, kernel"}));
+            (std::vector<std::string>{"R1 MPS, α = 0.001, wall", "R5 WCSPH, α = 0.001, kernel"}));
   for (const PlotPanel& panel : drawn) EXPECT_FALSE(panel.bands.empty()) << "the experiment";
   EXPECT_EQ(cut_.words.find("R1 "), 0U) << cut_.words;
   EXPECT_EQ(cut_.words.rfind("R1 "), 0U) << "once, though it is in both panels: " << cut_.words;
@@ -99,7 +100,7 @@ TEST_F(BothMethods, AreDividedWhereAPanelHasNoRoom) {
   for (std::size_t k = 0; k < groups.size(); ++k) {
     ASSERT_EQ(groups[k].runs.size(), 2U);
     EXPECT_EQ(groups[k].runs[0]->key, "R1");
-    EXPECT_EQ(groups[k].runs[1]->key, "R" + std::to_string(k + 3));
+    EXPECT_EQ(groups[k].runs[1]->key, fmt::format("R{}", k + 3));
   }
 }
 

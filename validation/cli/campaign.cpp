@@ -191,12 +191,12 @@ int compute_and_report(const Campaign& campaign, const CampaignArguments& argume
   const int interrupted = compute_all(campaign, arguments, others, results);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   const bool all_well = print_results(campaign, results);
-  tell(stdout, fmt::format("{}: {} taken, {} planned at its begin\n", campaign.name, human_time(taken.count()),
-                           human_time(planned_s)));
   if (interrupted != 0) {
     tell(stderr, fmt::format("interrupted; the same command {}goes on\n", arguments.force ? "without --force " : ""));
     return interrupted;
   }
+  tell(stdout, fmt::format("{}: {} taken, {} planned at its begin\n", campaign.name, human_time(taken.count()),
+                           human_time(planned_s)));
   if (!arguments.no_report) report_cases(campaign, out);
   return all_well ? 0 : 1;
 }

@@ -189,12 +189,30 @@ TEST_F(CampaignTest, ARunBesideTheCampaignTellsTheRateOfItsKind) {
   EXPECT_FALSE(plan_beside().measured);
 }
 
+/// Alpha moves the time step, in thin layers by a third from 0.1 to 0.001.
+TEST_F(CampaignTest, OfTwoRunsTheOneOfTheNearestAlphaCounts) {
+  const Campaign c = load(
+      "name = \"c\"\n[[runs]]\ncase = \"kleefsman\"\nsolver = \"wcsph\"\nl0_m = [0.05]\nalpha = [0.1, 0.01, 0.001]\n");
+  for (const std::size_t k : {0, 2}) {
+    auto done = manifest(c, c.runs[k], "finished");
+    done["wall_time_s"] = 10.0;
+    done["steps"] = k == 0 ? 1000 : 1400;
+    done["time_s"] = c.runs[k].settings.t_end_s;
+    done["particles"] = {{"fluid", 5000}, {"solid", 9000}};
+    put(c.runs[k], done);
+  }
+  CampaignRun run = c.runs[1];
+  run.settings.parameters["alpha"] = 0.04;
+  EXPECT_NEAR(estimate(c, run, known_costs(c, {})).plan.steps, 1000, 1e-6);
+  run.settings.parameters["alpha"] = 0.004;
+  EXPECT_NEAR(estimate(c, run, known_costs(c, {})).plan.steps, 1400, 1e-6);
+}
+
 TEST_F(CampaignTest, ThoseOfTheProjectCanBeRead) {
   for (const auto& entry : fs::directory_iterator(resolve_in_source_tree("validation/campaigns")))
     EXPECT_FALSE(load_campaign(entry.path(), directory, 1).runs.empty()) << entry.path();
 }
 
-/// What the paper's Tables 1 and 3 list, no more and no less.
 TEST_F(CampaignTest, AFinishedRunWithoutTheSnapshotsAskedForIsOutdated) {
   const Campaign campaign =
       load("name = \"c\"\n[[runs]]\ncase = \"kleefsman\"\nsolver = \"mps\"\nl0_m = [0.05]\nsnapshots = true\n");
@@ -205,6 +223,7 @@ TEST_F(CampaignTest, AFinishedRunWithoutTheSnapshotsAskedForIsOutdated) {
   EXPECT_EQ(state_of(campaign, run), CampaignState::finished);
 }
 
+/// What the paper's Tables 1 and 3 list, no more and no less.
 TEST(PaperCampaign, IsThePapersMatrix) {
   const Campaign campaign = load_campaign("validation/campaigns/paper.toml", "runs", 1);
   std::vector<std::string> ours;

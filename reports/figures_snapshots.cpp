@@ -97,7 +97,7 @@ std::string moving_edges_script(const Case& the_case, double t_s, int first) {
   return out;
 }
 
-constexpr const char* script_head = R"(# Drawn by sluice report from the snapshots of {0}
+constexpr const char* snapshots_head = R"(# Drawn by sluice report from the snapshots of {0}
 # (the projected particles are made anew each time and not kept).
 set terminal pngcairo size {1},{2} font 'DejaVu Sans,15' background '#ffffff'
 set output '{3}.png'
@@ -162,7 +162,7 @@ int first_moving_arrow(const Case& the_case) {
 std::string snapshot_script_head(const Case& the_case, const SnapshotFrame& frame, const std::string& name,
                                  const std::string& label) {
   const double total = frame.total_px;
-  std::string script = fmt::format(fmt::runtime(script_head), label, 2 * panel_width_px, frame.total_px, name,
+  std::string script = fmt::format(fmt::runtime(snapshots_head), label, 2 * panel_width_px, frame.total_px, name,
                                    frame.left, frame.right, frame.bottom, frame.top);
   script += fmt::format("set multiplot layout {},2 margins 0.01,0.99,{:.4f},{:.4f} spacing 0.01,{:.4f}\n", frame.rows,
                         bar_px / total, 1.0 - 30.0 / total, title_px / total);

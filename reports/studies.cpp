@@ -35,6 +35,9 @@ std::map<std::string, double> method(const ReportData& data, const RunRecord& ru
   const SolverOption* solver = data.the_case.find_solver(run.solver);
   if (!run.own || solver == nullptr || given == run.manifest.end() || !given->is_object()) return all;
   const WallOption* walls = find_walls(*solver, run.walls);
+  for (const auto& [name, value] : solver->parameters)
+    if (name != "alpha" && !given->contains(name))
+      all["unstated " + name] = value;  // of a time before there was such a parameter
   for (const auto& [name, value] : given->items()) {
     const bool listed = name == "alpha" || solver->parameters.contains(name) ||
                         data.the_case.find_placement(name) != nullptr ||
@@ -161,6 +164,14 @@ Runs of_solver(const Runs& runs, const std::string& solver) {
   return found;
 }
 
+/// Lengths that the case leaves open, where a run has another than as drawn.
+std::map<std::string, double> displaced(const ReportData& data, const RunRecord& run) {
+  std::map<std::string, double> lengths;
+  for (const Placement& placement : data.the_case.placements)
+    if (placed_at_m(placement, run) != placement.drawn_m) lengths[placement.name] = placed_at_m(placement, run);
+  return lengths;
+}
+
 /// Every MPS run meets every WCSPH run in one of the groups.
 void add_method_groups(std::vector<RunGroup>& groups, const std::string& title, std::span<const AnalysedRun* const> mps,
                        std::span<const AnalysedRun* const> wcsph, std::size_t limit) {
@@ -187,8 +198,10 @@ std::vector<RunGroup> method_groups(const ReportData& data, std::size_t limit) {
     for (auto from = wcsph.begin(); from != wcsph.end();) {  // runs come sorted by their walls
       const AnalysedRun& first = **from;
       const auto to = std::find_if(from, wcsph.end(), [&](const auto* run) { return run->group != first.group; });
-      add_method_groups(out, fmt::format("l0 = {:g} mm, MPS and {}", 1000 * first.record.l0_m, first.group), mps,
-                        {from, to}, std::max<std::size_t>(limit, 2));
+      add_method_groups(out,
+                        fmt::format("l0 = {:g} mm{}, MPS and {}", 1000 * first.record.l0_m,
+                                    parameters_text(displaced(data, first.record)), first.group),
+                        mps, {from, to}, std::max<std::size_t>(limit, 2));
       from = to;
     }
   }

@@ -118,6 +118,15 @@ bool same_inputs(const json& manifest, const Case& c, const RunSettings& s) {
          is("t_end_s", s.t_end_s) && is("output_rate_Hz", s.output_rate_Hz) && is("parameters", s.parameters);
 }
 
+/// Whether snapshots are asked for that the run was not told to write. Manifests that do not say it yet: whether a
+/// finished run has none.
+bool lacks_snapshots(const json& manifest, const CampaignRun& run) {
+  if (run.settings.snapshot_times_s.empty()) return false;
+  if (manifest.contains("snapshot_times_s")) return manifest["snapshot_times_s"] != run.settings.snapshot_times_s;
+  return manifest.contains("status") && manifest["status"] == "finished" &&
+         !fs::exists(run.directory / "snapshots.pvd");
+}
+
 double number_of(const json& manifest, const char* key) {
   return manifest.contains(key) && manifest[key].is_number() ? manifest[key].get<double>() : 0;
 }
@@ -151,10 +160,8 @@ CampaignState state_of(const Campaign& campaign, const CampaignRun& run) {
   const json manifest = manifest_of(run.directory);
   if (manifest.is_null()) return CampaignState::absent;
   if (!same_inputs(manifest, campaign.case_of(run), run.settings)) return CampaignState::outdated;
-  if (text_of(manifest, "status") == "finished") {
-    const bool lacks_snapshots = !run.settings.snapshot_times_s.empty() && !fs::exists(run.directory / "snapshots.pvd");
-    return lacks_snapshots ? CampaignState::outdated : CampaignState::finished;
-  }
+  if (lacks_snapshots(manifest, run)) return CampaignState::outdated;
+  if (text_of(manifest, "status") == "finished") return CampaignState::finished;
   return fs::exists(run.directory / checkpoint_file) ? CampaignState::resumable : CampaignState::incomplete;
 }
 

@@ -57,7 +57,7 @@ enum class CampaignState {
   finished,    ///< with the inputs of today
   resumable,   ///< with the inputs of today, and a checkpoint
   incomplete,  ///< begun, failed or interrupted, without a checkpoint to go on from
-  outdated,    ///< computed from other inputs: another case file or other parameters
+  outdated,    ///< computed from other inputs: another case file, other parameters, without the snapshots asked for
 };
 CampaignState state_of(const Campaign& campaign, const CampaignRun& run);
 std::string to_string(CampaignState state);

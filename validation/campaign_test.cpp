@@ -213,7 +213,7 @@ TEST_F(CampaignTest, ThoseOfTheProjectCanBeRead) {
     EXPECT_FALSE(load_campaign(entry.path(), directory, 1).runs.empty()) << entry.path();
 }
 
-TEST_F(CampaignTest, AFinishedRunWithoutTheSnapshotsAskedForIsOutdated) {
+TEST_F(CampaignTest, ARunWithoutTheSnapshotsAskedForIsOutdated) {
   const Campaign campaign =
       load("name = \"c\"\n[[runs]]\ncase = \"kleefsman\"\nsolver = \"mps\"\nl0_m = [0.05]\nsnapshots = true\n");
   const CampaignRun& run = campaign.runs.at(0);
@@ -221,6 +221,14 @@ TEST_F(CampaignTest, AFinishedRunWithoutTheSnapshotsAskedForIsOutdated) {
   EXPECT_EQ(state_of(campaign, run), CampaignState::outdated);
   std::ofstream(run.directory / "snapshots.pvd") << "\n";
   EXPECT_EQ(state_of(campaign, run), CampaignState::finished);
+  auto begun = manifest(campaign, run, "interrupted");
+  begun["snapshot_times_s"] = run.settings.snapshot_times_s;
+  put(run, begun);
+  std::ofstream(run.directory / checkpoint_file) << "something";
+  EXPECT_EQ(state_of(campaign, run), CampaignState::resumable);
+  begun["snapshot_times_s"] = nlohmann::json::array();
+  put(run, begun);
+  EXPECT_EQ(state_of(campaign, run), CampaignState::outdated) << "going on would not make them";
 }
 
 /// What the paper's Tables 1 and 3 list, no more and no less.

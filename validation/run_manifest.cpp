@@ -80,6 +80,7 @@ json start_manifest(const Case& c, const RunSettings& settings, const Scene& sce
   m["t_end_s"] = settings.t_end_s;
   m["output_rate_Hz"] = settings.output_rate_Hz;
   m["threads"] = settings.threads;
+  m["snapshot_times_s"] = settings.snapshot_times_s;
   m["parameters"] = settings.parameters;
   m["warnings"] = json::array();
   m["status"] = "running";

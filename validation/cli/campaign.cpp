@@ -256,7 +256,8 @@ void add_campaign(CLI::App& app, int& exit_code) {
       "--time-limit", arguments->time_limit,
       "Slurm: of one run's task, such as 12:00:00; a task that runs out of it goes back into the queue");
   command->footer(
-      "Finished runs whose inputs have not changed are kept, unfinished ones go on from their checkpoints, failed ones "
+      "Finished runs whose inputs have not changed are kept (unless snapshots are asked for that they lack), "
+      "unfinished ones go on from their checkpoints, failed ones "
       "are\n"
       "told and do not stop the others. Interrupted, the same command goes on (without --force, which begins anew).\n\n"
       "Examples:\n"

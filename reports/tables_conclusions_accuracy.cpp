@@ -45,21 +45,34 @@ LowImpulses our_low_impulses(const ReportData& data, const WallsScope& scope) {
   return ours;
 }
 
+/// The smallest value of each method, and whose it is.
+struct LeastOfBoth {
+  double mps = 0;
+  double wcsph = 0;
+  const AnalysedRun& mps_run;
+  const AnalysedRun& wcsph_run;
+};
+
+/// Whether MPS has the smaller one; nothing to say where a method has none.
+template <class Measure, class Words>
+Evidence judge_least(const ReportData& data, const WallsScope& scope, Measure measure, Words words) {
+  const BothMethods both = finest_of_both(data, scope);
+  const auto [mps, mps_run] = least(both.mps, measure);
+  const auto [wcsph, wcsph_run] = least(both.wcsph, measure);
+  if (!mps || !wcsph) return {};
+  return {words(LeastOfBoth{*mps, *wcsph, *mps_run, *wcsph_run}), *mps < *wcsph};
+}
+
 }  // namespace
 
 void add_accuracy(Table& table, const ReportData& data) {
   const std::string paper = printed_accuracy(data);
   const auto error = [&](const AnalysedRun& run) { return mean_impulse_error(data, run); };
   for (const WallsScope& scope : walls_scopes(data)) {
-    Evidence ours;
-    const BothMethods both = finest_of_both(data, scope);
-    const auto [best_mps, mps_run] = least(both.mps, error);
-    const auto [best_wcsph, wcsph_run] = least(both.wcsph, error);
-    if (best_mps && best_wcsph) {
-      ours.words = fmt::format("MPS {} ({}), best WCSPH {} ({})", percent(*best_mps), mps_run->key,
-                               percent(*best_wcsph), wcsph_run->label);
-      ours.agrees = *best_mps < *best_wcsph;
-    }
+    const Evidence ours = judge_least(data, scope, error, [](const LeastOfBoth& l) {
+      return fmt::format("MPS {} ({}), best WCSPH {} ({})", percent(l.mps), l.mps_run.key, percent(l.wcsph),
+                         l.wcsph_run.label);
+    });
     add(table, scope.named("MPS is more accurate in impulse"), paper, ours);
   }
 }
@@ -83,15 +96,10 @@ void add_pressure_oscillations(Table& table, const ReportData& data) {
     return mean_over(shown.names, run, [](const Comparison& c) { return c.noise.simulated; });
   };
   for (const WallsScope& scope : walls_scopes(data)) {
-    Evidence ours;
-    const BothMethods both = finest_of_both(data, scope);
-    const auto [mps_Pa, mps_run] = least(both.mps, noise_of);
-    const auto [wcsph_Pa, wcsph_run] = least(both.wcsph, noise_of);
-    if (mps_Pa && wcsph_Pa) {
-      ours.words = fmt::format("noise MPS {} Pa ({}), quietest WCSPH {} Pa ({})", fixed(*mps_Pa, 0), mps_run->key,
-                               fixed(*wcsph_Pa, 0), wcsph_run->label);
-      ours.agrees = *mps_Pa < *wcsph_Pa;
-    }
+    const Evidence ours = judge_least(data, scope, noise_of, [](const LeastOfBoth& l) {
+      return fmt::format("noise MPS {} Pa ({}), quietest WCSPH {} Pa ({})", fixed(l.mps, 0), l.mps_run.key,
+                         fixed(l.wcsph, 0), l.wcsph_run.label);
+    });
     add(table, scope.named("MPS pressures oscillate less than WCSPH's"), shown.evidence, ours);
   }
   table.notes.push_back(

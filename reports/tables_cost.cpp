@@ -44,14 +44,13 @@ Table cost_ratio_table(const ReportData& data) {
     }
   }
   if (table.rows.empty()) return table;
-  if (mps != nullptr && wcsph != nullptr)
+  if (mps != nullptr && wcsph != nullptr) {
     add_pair(table, word("Paper: MPS, as printed"), word("Paper: WCSPH, as printed"), mps->l0_m,
              mps->cpu_time_s / mps->t_end_s, wcsph->cpu_time_s / wcsph->t_end_s);
-  if (mps != nullptr && wcsph != nullptr)
     table.notes.push_back(
         "The paper's row is its printed time over its simulated time; whether that is the clock's or summed over cores "
-        "it "
-        "does not say. The ratio is the same either way.");
+        "it does not say. The ratio is the same either way.");
+  }
   table.notes.push_back(
       "Processor time is summed over threads. Runs that did not share a machine at the same time compare only roughly; "
       "bench/ times whole steps of both solvers side by side.");

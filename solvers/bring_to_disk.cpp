@@ -17,8 +17,7 @@ void bring_to_disk(const std::filesystem::path& file_or_folder) {
   if (descriptor >= 0) ::close(descriptor);
   if (done) return;
   throw std::runtime_error(
-      fmt::format("{}: cannot be brought to disk ({}); free space on that disk or write to another "
-                  "one",
+      fmt::format("{}: cannot be brought to disk ({}); free space on that disk or write to another one",
                   file_or_folder.string(), std::generic_category().message(cause)));
 }
 

@@ -118,21 +118,20 @@ bool same_inputs(const json& manifest, const Case& c, const RunSettings& s) {
          is("t_end_s", s.t_end_s) && is("output_rate_Hz", s.output_rate_Hz) && is("parameters", s.parameters);
 }
 
-/// Whether snapshots are asked for that the run was not told to write. Manifests that do not say it yet: whether a
-/// finished run has none.
-bool lacks_snapshots(const json& manifest, const CampaignRun& run) {
-  if (run.settings.snapshot_times_s.empty()) return false;
-  if (manifest.contains("snapshot_times_s")) return manifest["snapshot_times_s"] != run.settings.snapshot_times_s;
-  return manifest.contains("status") && manifest["status"] == "finished" &&
-         !fs::exists(run.directory / "snapshots.pvd");
-}
-
 double number_of(const json& manifest, const char* key) {
   return manifest.contains(key) && manifest[key].is_number() ? manifest[key].get<double>() : 0;
 }
 
 std::string text_of(const json& manifest, const char* key) {
   return manifest.contains(key) && manifest[key].is_string() ? manifest[key].get<std::string>() : "";
+}
+
+/// Whether snapshots are asked for that the run was not told to write. Manifests that do not say it yet: whether a
+/// finished run has none.
+bool lacks_snapshots(const json& manifest, const CampaignRun& run) {
+  if (run.settings.snapshot_times_s.empty()) return false;
+  if (manifest.contains("snapshot_times_s")) return manifest["snapshot_times_s"] != run.settings.snapshot_times_s;
+  return text_of(manifest, "status") == "finished" && !fs::exists(run.directory / "snapshots.pvd");
 }
 
 }  // namespace

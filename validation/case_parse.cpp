@@ -135,8 +135,7 @@ std::map<std::string, double> parse_parameters(TomlReader reader, const std::str
 
 /// Our own solvers read walls in one way each; another code's results may have been read in any.
 std::vector<std::string> pressure_models(const std::string& solver) {
-  const std::vector<std::string>& own = solver_names();
-  if (std::find(own.begin(), own.end(), solver) == own.end()) return models_of(SensorKind::pressure);
+  if (!has_solver(solver)) return models_of(SensorKind::pressure);
   return {wall_pressure_model(solver), "kernel"};
 }
 

@@ -184,7 +184,7 @@ void write_file(const fs::path& file, std::span<const std::byte> image) {
     if (written < 0) fail_with_cause(file, "cannot be written");
     image = image.subspan(static_cast<std::size_t>(written));
   }
-  if (::fsync(out.id()) != 0) fail_with_cause(file, "cannot be brought to disk");
+  bring_to_disk(file);
 }
 
 std::string text_of(const FileArchive& archive, const std::string& name) {

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <vector>
 
 namespace sluice {
 namespace {
 
 using nlohmann::json;
+
+constexpr std::array<const char*, 5> all_keys{"commit", "compiler", "flags", "machine", "threads"};
 
 /// What the legs state under a key, in their order, neighbours that are equal once.
 std::vector<std::string> values_of(const json& legs, const char* key) {
@@ -26,7 +30,7 @@ std::vector<std::string> values_of(const json& legs, const char* key) {
 
 json leg_of(const json& manifest, double from_s) {
   json leg{{"from_s", from_s}};
-  for (const char* key : {"commit", "compiler", "flags", "machine", "threads"}) leg[key] = manifest.at(key);
+  for (const char* key : all_keys) leg[key] = manifest.at(key);
   return leg;
 }
 
@@ -34,7 +38,7 @@ std::string difference_of_legs(const json& manifest, std::initializer_list<const
   const auto legs = manifest.find("legs");
   if (legs == manifest.end() || !legs->is_array()) return "";
   std::vector<std::string> differences;
-  for (const char* key : keys)
+  for (const char* key : keys.size() > 0 ? std::span(keys) : std::span<const char* const>(all_keys))
     if (const auto values = values_of(*legs, key); values.size() > 1)
       differences.push_back(fmt::format("{} ({})", key, fmt::join(values, ", then ")));
   return differences.empty() ? ""

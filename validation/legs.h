@@ -11,10 +11,8 @@ namespace sluice {
 /// from which on they computed.
 nlohmann::json leg_of(const nlohmann::json& manifest, double from_s);
 
-/// In words, in which of these the legs of a run differ; empty where they do not, or where the manifest has none. What
-/// a leg does not state does not differ.
-std::string difference_of_legs(const nlohmann::json& manifest,
-                               std::initializer_list<const char*> keys = {"commit", "compiler", "flags", "machine",
-                                                                          "threads"});
+/// In words, in which of these (none given: of all) the legs of a run differ; empty where they do not, or where the
+/// manifest has none. What a leg does not state does not differ.
+std::string difference_of_legs(const nlohmann::json& manifest, std::initializer_list<const char*> keys = {});
 
 }  // namespace sluice

@@ -183,6 +183,10 @@ const std::vector<std::string>& solver_names() {
   return names;
 }
 
+bool has_solver(std::string_view solver) {
+  return find_entry(solver) != nullptr;
+}
+
 std::vector<std::string> solver_parameter_names(std::string_view solver) {
   const SolverEntry* entry = find_entry(solver);
   return entry == nullptr ? std::vector<std::string>{} : entry->parameters;

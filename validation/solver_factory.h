@@ -18,6 +18,9 @@ namespace sluice {
 /// Names of all solvers that this program has.
 const std::vector<std::string>& solver_names();
 
+/// Whether this program has a solver of that name.
+bool has_solver(std::string_view solver);
+
 /// Names of the numeric parameters that a solver takes; empty for an unknown solver.
 std::vector<std::string> solver_parameter_names(std::string_view solver);
 

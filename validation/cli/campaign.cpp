@@ -102,10 +102,11 @@ int compute_all(const Campaign& campaign, const CampaignArguments& arguments, co
       results.push_back({"kept", ""});
       continue;
     }
-    tell(stderr, fmt::format("[{}/{}] {}; {} left of the campaign\n", i + 1, campaign.runs.size(),
-                             run.directory.filename().string(),
-                             human_time(remaining_s(campaign, i, arguments.force, known_costs(campaign, others)))));
-    const double planned_s = estimate(campaign, run, known_costs(campaign, others)).remaining_s();
+    const std::vector<RunCost> costs = known_costs(campaign, others);
+    tell(stderr,
+         fmt::format("[{}/{}] {}; {} left of the campaign\n", i + 1, campaign.runs.size(),
+                     run.directory.filename().string(), human_time(remaining_s(campaign, i, arguments.force, costs))));
+    const double planned_s = estimate(campaign, run, costs).remaining_s();
     const auto begin = std::chrono::steady_clock::now();
     RunOutcome outcome;
     try {

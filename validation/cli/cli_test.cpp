@@ -28,6 +28,16 @@ class CommandLine : public program_test::InDirectory {
   CommandLine() : InDirectory("sluice-cli") {}
 
   Answer sluice(const std::string& arguments) const { return command(fmt::format("{} {}", program, arguments)); }
+  /// Exit code of a command that is told to end as soon as its run has samples.
+  int interrupted(const std::string& arguments, const fs::path& run) const {
+    // SIGTERM, since a shell without job control starts programs in the background with SIGINT ignored.
+    const int status = std::system(
+        fmt::format("bash -c '{} {} >/dev/null 2>&1 & pid=$!; while ! grep -qs . {}/probes.csv; do sleep 0.1; done; "
+                    "kill -TERM $pid; wait $pid'",
+                    program, arguments, run.string())
+            .c_str());
+    return WEXITSTATUS(status);
+  }
 
   std::string program = program_test::program_path("SLUICE_PROGRAM", "sluice");
 };
@@ -116,14 +126,7 @@ TEST_F(CommandLine, ValidateOfATooShortRunDoesNotPass) {
 
 TEST_F(CommandLine, AnInterruptedRunKeepsItsResults) {
   const fs::path run = directory / "run";
-  const std::string arguments = "run kleefsman --l0 0.05 --threads 1 --out " + run.string();
-  // SIGTERM, since a shell without job control starts programs in the background with SIGINT ignored.
-  const int status = std::system(
-      fmt::format("bash -c '{} {} 2>/dev/null & pid=$!; while ! grep -qs . {}/probes.csv; do sleep 0.1; done; "
-                  "kill -TERM $pid; wait $pid'",
-                  program, arguments, run.string())
-          .c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 143);
+  EXPECT_EQ(interrupted("run kleefsman --l0 0.05 --threads 1 --out " + run.string(), run), 143);
   const RunRecord record = read_run(run);
   EXPECT_EQ(record.status(), "interrupted");
   EXPECT_GT(record.probes.rows(), 0u);
@@ -218,12 +221,7 @@ t_end_s = 0.5
   const std::string command = fmt::format("campaign {} --threads 1 --no-report --out {}",
                                           (directory / "c.toml").string(), (directory / "runs").string());
   const fs::path run = directory / "runs" / "kleefsman-mps-dummies-l0.050-t_end_s0.5";
-  const int status = std::system(
-      fmt::format("bash -c '{} {} >/dev/null 2>&1 & pid=$!; while ! grep -qs . {}/probes.csv; do sleep 0.1; done; "
-                  "kill -TERM $pid; wait $pid'",
-                  program, command, run.string())
-          .c_str());
-  ASSERT_EQ(WEXITSTATUS(status), 143);
+  ASSERT_EQ(interrupted(command, run), 143);
   EXPECT_EQ(read_run(run).status(), "interrupted");
   EXPECT_EQ(sluice(command).exit_code, 0);
   EXPECT_EQ(read_run(run).status(), "finished");

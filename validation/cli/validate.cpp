@@ -117,16 +117,11 @@ bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
   return passed && judged;
 }
 
-bool is_known(const std::string& solver) {
-  const std::vector<std::string>& names = solver_names();
-  return std::find(names.begin(), names.end(), solver) != names.end();
-}
-
 std::vector<RunRequest> requests(const Case& c, const ValidateArguments& arguments, const Tier& tier) {
   std::vector<RunRequest> all;
   for (const SolverOption& solver : c.solvers) {
     if (!arguments.solver.empty() && solver.name != arguments.solver) continue;
-    if (arguments.solver.empty() && !is_known(solver.name))
+    if (arguments.solver.empty() && !has_solver(solver.name))
       continue;  // another code's, with acceptance rows of its own
     for (const std::string& walls : walls_in_order(solver)) {
       RunRequest request;

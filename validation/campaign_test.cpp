@@ -255,10 +255,12 @@ TEST(PaperCampaign, IsComputedThePapersWay) {
     const bool mps = run.settings.solver == "mps";
     EXPECT_EQ(run.settings.walls, mps ? "dummies" : "dynamic");
     EXPECT_FALSE(run.settings.snapshot_times_s.empty());
-    if (mps)
+    if (mps) {
       EXPECT_GE(run.settings.parameters.at("tolerated_crowding"), 100) << "the source of Eq. (23) alone";
-    else
+    } else {
       EXPECT_EQ(run.settings.parameters.at("restart_interval"), 40);
+      EXPECT_EQ(run.settings.parameters.at("tension_limit"), 1);
+    }
   }
 }
 

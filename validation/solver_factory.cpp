@@ -26,6 +26,7 @@ std::map<std::string, double> complete_wcsph(const Case& c, std::map<std::string
   p.try_emplace("courant", defaults.courant);
   p.try_emplace("kernel_radius_over_distance", defaults.kernel_radius_over_distance);
   p.try_emplace("restart_interval", defaults.restart_interval);
+  p.try_emplace("tension_limit", defaults.tension_limit);
   p.try_emplace("wall_friction", defaults.wall_friction);
   p.try_emplace("speed_of_sound_over_sqrt_gH", 20.0);
   // A speed of sound given in m/s counts; the ratio then follows it.
@@ -53,6 +54,7 @@ std::unique_ptr<Solver> make_wcsph(const Case& c, const Scene& scene, const RunS
   p.courant = given.at("courant");
   p.speed_of_sound_m_s = given.at("speed_of_sound_m_s");
   p.restart_interval = static_cast<int>(given.at("restart_interval"));
+  p.tension_limit = given.at("tension_limit");
   p.wall_friction = given.at("wall_friction");
   p.reference_density_kg_m3 = c.density_kg_m3;
   p.water_height_m = c.water_height_m;
@@ -144,7 +146,7 @@ const std::vector<SolverEntry>& entries() {
        {"extrapolated", "dynamic"},
        "wall",
        {"alpha", "delta", "gamma", "courant", "kernel_radius_over_distance", "restart_interval", "speed_of_sound_m_s",
-        "speed_of_sound_over_sqrt_gH", "wall_friction"},
+        "speed_of_sound_over_sqrt_gH", "tension_limit", "wall_friction"},
        complete_wcsph,
        make_wcsph,
        wcsph_cost},

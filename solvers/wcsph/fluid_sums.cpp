@@ -43,7 +43,7 @@ template <class Pack>
                                               i.sound + L::load(&neighbours.sound[j]));
   const Pack mu = magnitude(viscosity.mu);
   if (any_larger(mu, largest_mu, p.taper)) largest_mu = Pack(lane_max(larger(where_positive(p.taper, mu), largest_mu)));
-  const Pack pressure = larger(L::load(&neighbours.pressure[j]), law.least_pressure_sum - i.pressure);
+  const Pack pressure = borne_pressure(i.pressure, L::load(&neighbours.pressure[j]), law.least_pressure_sum);
   const Pack force = momentum_term(i.pressure, pressure, i.inverse_density, L::load(&neighbours.volume[j]),
                                    law.viscosity_factor * viscosity.Pi, g);
   return {g, approach, force};

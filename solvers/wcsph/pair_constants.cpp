@@ -27,6 +27,8 @@ PairConstants<Pack>::PairConstants(const Parameters& p, double quantum_m)
   with_wall = {p.walls == WallModel::extrapolated ? Pack(0) : any_pressure_sum,
                Pack(static_cast<Real>(viscosity * p.wall_friction))};
   mu_factor = h / quantum_m;
+  least_pressure = static_cast<Real>(p.least_pressure_Pa());
+  least_density = m * wendland_weight(1.0, Wendland{h}.normalisation()) - p.reference_density_kg_m3;
   reference_density = static_cast<Real>(p.reference_density_kg_m3);
   const Vec3d g = p.gravity_m_s2;
   gravity = {static_cast<Real>(g.x), static_cast<Real>(g.y), static_cast<Real>(g.z)};

@@ -37,7 +37,9 @@ struct PairConstants {
   PairLaw<Pack> with_wall;
   double mu_factor;  ///< h   [quantum]: |mu| in m/s from the sums' mu / h
   Real reference_density;
-  Vec3<Real> gravity;              ///< [m/s^2]
+  Real least_pressure;   ///< P that the fluid bears   [Pa]
+  double least_density;  ///< rho - rho_0 of a particle that is alone, rho = m W(0), below which none falls   [kg/m^3]
+  Vec3<Real> gravity;    ///< [m/s^2]
   Vec3<Real> gravity_per_quantum;  ///< g times metres a quantum: r_ij . g from distances in quanta
   Tait tait;
 };

@@ -29,10 +29,18 @@ struct Parameters {
   /// forty steps multiply the mode more than a restart takes from it, so that a still tank comes to the boil in two
   /// seconds. Twenty do not (wcsph_verification_test.cpp shows both).
   int restart_interval = 20;
+  /// The greatest tension of the fluid over rho_0 c_0^2: a hundredth goes with the hundredth by which the speed of
+  /// sound lets the density vary. The equation of state allows 1/7: a knot of spray draws itself together with it until
+  /// the time step collapses, and long before that it sets every step. 1, as in the paper: no limit.
+  double tension_limit = 0.01;
   /// Share of the artificial viscosity that acts between fluid and walls: 1 as between fluid particles, 0 slip.
   double wall_friction = 1;
   WallModel walls = WallModel::extrapolated;
 
+  /// Below it the equation of state is cut off   [Pa]
+  double least_pressure_Pa() const {
+    return -tension_limit * reference_density_kg_m3 * speed_of_sound_m_s * speed_of_sound_m_s;
+  }
   double smoothing_length_m() const { return 0.5 * kernel_radius_over_distance * particle_distance_m; }
 };
 

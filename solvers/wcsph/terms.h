@@ -44,6 +44,13 @@ template <class Real>
   return {quotient * sum_of_densities, -(sum_of_sound_speeds * smaller(quotient, Real{}))};
 }
 
+/// The neighbour's pressure, or the one with which P_i + P_j is the least sum that the pair bears   [Pa]
+template <class Real>
+[[gnu::always_inline]] inline Real borne_pressure(const Real& pressure_i, const Real& pressure_j,
+                                                  const Real& least_sum) {
+  return larger(pressure_j, least_sum - pressure_i);
+}
+
 /// m_j [(P_i + P_j) / (rho_i rho_j) + Pi_ij] g, of which the acceleration is minus G0 times the sum times r_ij
 /// [m^5/s^2]   Eq. (3); volume_j = m_j / rho_j and `viscous` = m_j Pi_ij.
 template <class Real>

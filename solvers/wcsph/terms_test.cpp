@@ -111,6 +111,17 @@ TYPED_TEST(Terms, PressureAndViscosityOfAPairAddUpInTheMomentumTerm) {
   EXPECT_NEAR(term / expected, 1.0, this->tolerance);
 }
 
+TYPED_TEST(Terms, APairBearsNoLessPressureThanItsLeast) {
+  using T = Terms<TypeParam>;
+  const auto borne = [](double P_i, double P_j) {
+    return P_i + T::lane(borne_pressure(T::pack(P_i), T::pack(P_j), T::pack(-500)));
+  };
+  EXPECT_EQ(borne(3000, -1000), 2000);
+  EXPECT_EQ(borne(-100, -200), -300);
+  EXPECT_EQ(borne(-3000, 1000), -500);
+  EXPECT_EQ(borne(-3000, -3000), -500);
+}
+
 TYPED_TEST(Terms, AWallBelowTheFluidCarriesTheWeightBetween) {
   using T = Terms<TypeParam>;
   const Vec3<TypeParam> gravity{T::pack(0), T::pack(0), T::pack(-9.81)};

@@ -16,7 +16,7 @@ void advance_value(Real& at_t, Real& before, Real rate, Real dt_s, VerletForm fo
 }  // namespace
 
 template <class Pack>
-double advance_fluid(Particles<Pack>& fluid, double dt_s, VerletForm form, int threads) {
+double advance_fluid(Particles<Pack>& fluid, double dt_s, VerletForm form, double least_density, int threads) {
   using Real = typename Lanes<Pack>::Real;
   const auto dt = static_cast<Real>(dt_s);
   const auto n = static_cast<std::int64_t>(fluid.n);
@@ -34,6 +34,7 @@ double advance_fluid(Particles<Pack>& fluid, double dt_s, VerletForm form, int t
     advance_value(fluid.velocity.y[i], fluid.velocity_previous.y[i], fluid.acceleration.y[i], dt, form);
     advance_value(fluid.velocity.z[i], fluid.velocity_previous.z[i], fluid.acceleration.z[i], dt, form);
     advance_value(fluid.density[i], fluid.density_previous[i], fluid.density_rate[i], dt, form);
+    fluid.density[i] = std::max(static_cast<Real>(least_density), fluid.density[i]);
   }
   return std::sqrt(longest2);
 }
@@ -51,8 +52,8 @@ void advance_wall_density(Particles<Pack>& walls, double dt_s, VerletForm form, 
   }
 }
 
-template double advance_fluid(Particles<double>&, double, VerletForm, int);
-template double advance_fluid(Particles<FloatPack>&, double, VerletForm, int);
+template double advance_fluid(Particles<double>&, double, VerletForm, double, int);
+template double advance_fluid(Particles<FloatPack>&, double, VerletForm, double, int);
 template void advance_wall_density(Particles<double>&, double, VerletForm, int);
 template void advance_wall_density(Particles<FloatPack>&, double, VerletForm, int);
 

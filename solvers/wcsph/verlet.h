@@ -20,9 +20,10 @@ inline double verlet_displacement(double velocity, double acceleration, double d
   return dt_s * velocity + 0.5 * dt_s * dt_s * acceleration;
 }
 
-/// Moves fluid particles by one step. Returns the longest displacement [m].
+/// Moves fluid particles by one step; their densities rho - rho_0 [kg/m^3] do not fall below the least. Returns the
+/// longest displacement [m].
 template <class Pack>
-double advance_fluid(Particles<Pack>& fluid, double dt_s, VerletForm form, int threads);
+double advance_fluid(Particles<Pack>& fluid, double dt_s, VerletForm form, double least_density, int threads);
 
 /// Integrates the density of dynamic walls, never below the reference density.
 template <class Pack>

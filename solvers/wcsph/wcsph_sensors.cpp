@@ -72,7 +72,7 @@ Vec3d WcsphSolver<Pack>::reaction_of(std::size_t i, const Box& fluid_within_m) c
   const double rho_0 = parameters_.reference_density_kg_m3;
   const double mass = rho_0 * std::pow(parameters_.particle_distance_m, 3);
   const double viscosity_factor = mass * parameters_.alpha * h * parameters_.wall_friction;
-  const bool pushes_only = parameters_.walls == WallModel::extrapolated;
+  const auto least_sum = static_cast<double>(lane_max(constants_.with_wall.least_pressure_sum));
   const Vec3d x = walls_.position.template at<double>(i);
   const Vec3d u = walls_.velocity.template at<double>(i);
   const double density = rho_0 + static_cast<double>(walls_.density[i]);
@@ -87,8 +87,7 @@ Vec3d WcsphSolver<Pack>::reaction_of(std::size_t i, const Box& fluid_within_m) c
         artificial_viscosity(dot(fluid_.velocity.template at<double>(j) - u, r), distance * distance, 0.01 * h * h,
                              density + rho_0 + static_cast<double>(fluid_.density[j]),
                              static_cast<double>(walls_.sound[i]) + static_cast<double>(fluid_.sound[j]));
-    auto pressure_j = static_cast<double>(fluid_.pressure[j]);
-    if (pushes_only) pressure_j = std::max(pressure_j, -pressure);
+    const double pressure_j = borne_pressure(pressure, static_cast<double>(fluid_.pressure[j]), least_sum);
     sum += momentum_term(pressure, pressure_j, 1 / density, static_cast<double>(fluid_.volume[j]),
                          viscosity_factor * viscosity.Pi, g) *
            r;

@@ -29,6 +29,7 @@ Parameters checked(const Parameters& p) {
   require(p.kernel_radius_over_distance >= 2 && p.kernel_radius_over_distance <= 6, "kernel_radius_over_distance",
           p.kernel_radius_over_distance, "in [2, 6]");
   require(p.wall_friction >= 0 && p.wall_friction <= 1, "wall_friction", p.wall_friction, "in [0, 1]");
+  require(p.tension_limit >= 0 && p.tension_limit <= 1, "tension_limit", p.tension_limit, "in [0, 1]");
   require(p.restart_interval >= 1, "restart_interval", p.restart_interval, "one or more");
   return p;
 }

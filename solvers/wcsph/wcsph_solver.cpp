@@ -11,10 +11,10 @@
 namespace sluice::wcsph {
 namespace {
 
-/// Pressure, volume and speed of sound of one particle from its density.
+/// Pressure, cut off where the fluid would tear, volume and speed of sound of one particle from its density.
 template <class Pack>
 void apply_equation_of_state(Particles<Pack>& p, std::size_t i, const PairConstants<Pack>& c) {
-  p.pressure[i] = tait_pressure(p.density[i], c.tait);
+  p.pressure[i] = std::max(tait_pressure(p.density[i], c.tait), c.least_pressure);
   p.volume[i] = c.mass / (c.reference_density + p.density[i]);
   p.sound[i] = tait_speed_of_sound(p.density[i], c.tait);
 }
@@ -49,7 +49,7 @@ StepLimits WcsphSolver<Pack>::sum_rates() {
 template <class Pack>
 void WcsphSolver<Pack>::advance(double dt_s) {
   const auto form = steps_ % parameters_.restart_interval == 0 ? VerletForm::restart : VerletForm::leap;
-  travel_m_ += advance_fluid(fluid_, dt_s, form, threads_);
+  travel_m_ += advance_fluid(fluid_, dt_s, form, constants_.least_density, threads_);
   move_walls(dt_s);
   if (parameters_.walls == WallModel::dynamic) advance_wall_density(walls_, dt_s, form, threads_);
   if (parameters_.walls == WallModel::extrapolated) hold_at_walls();

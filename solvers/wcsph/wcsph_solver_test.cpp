@@ -8,6 +8,8 @@
 #include <random>
 
 #include "solvers/memory_archive.h"
+#include "solvers/wcsph/equation_of_state.h"
+#include "solvers/wcsph/kernel.h"
 #include "solvers/wcsph/test_tank.h"
 
 namespace sluice::wcsph {
@@ -58,6 +60,32 @@ TYPED_TEST(Solvers, TwoUnderPressureAreDrivenApart) {
   s.step();
   EXPECT_LT(s.fluid().velocity.x[index_of(s, 0)], 0);
   EXPECT_GT(s.fluid().velocity.x[index_of(s, 1)], 0);
+}
+
+TYPED_TEST(Solvers, FluidInTensionPullsNoHarderThanTheLimit) {
+  const auto pull_m_s2 = [](double tension_limit) {
+    Parameters p = free_parameters(l0);
+    p.tension_limit = tension_limit;
+    WcsphSolver<TypeParam> s(free_particles(l0, {{0.4, 0.4, 0.4}, {0.4 + l0, 0.4, 0.4}}), p, 1);
+    s.set_fluid(0, {0, 0, 0}, -100);
+    s.set_fluid(1, {0, 0, 0}, -100);
+    const double dt_s = s.step();
+    return static_cast<double>(s.fluid().velocity.x[index_of(s, 0)]) / dt_s;
+  };
+  const double c0 = free_parameters(l0).speed_of_sound_m_s;
+  EXPECT_GT(pull_m_s2(1), 0) << "the paper's, which has no limit";
+  EXPECT_NEAR(pull_m_s2(0.01) / pull_m_s2(1), -0.01 * 1000 * c0 * c0 / tait_pressure(-100.0, Tait{1000, c0}), 1e-5);
+  EXPECT_EQ(pull_m_s2(0), 0);
+}
+
+TYPED_TEST(Solvers, NoneIsThinnerThanOneThatIsAlone) {
+  auto s = two_particles<TypeParam>();
+  s.set_fluid(0, {-40, 0, 0}, -850);
+  s.set_fluid(1, {40, 0, 0}, -850);
+  for (int k = 0; k < 20; ++k) s.step();
+  const double h = s.smoothing_length_m();
+  EXPECT_NEAR(1000 + static_cast<double>(s.fluid().density[0]), 1000 * l0 * l0 * l0 * Wendland{h}.normalisation(),
+              0.01);
 }
 
 TYPED_TEST(Solvers, DensityDiffusesBetweenTwo) {

@@ -9,6 +9,7 @@
 
 #include "validation/checkpoint.h"
 #include "validation/manifest.h"
+#include "validation/rate_probe.h"
 
 namespace sluice {
 namespace {
@@ -121,7 +122,7 @@ TEST_F(CampaignTest, AManifestOfAnyShapeHasAState) {
     fs::create_directories(c.runs[0].directory);
     std::ofstream(c.runs[0].directory / "run.json") << text;
     EXPECT_NE(state_of(c, c.runs[0]), CampaignState::finished) << text;
-    EXPECT_FALSE(estimate(c, c.runs[1], known_costs(c, {})).plan.measured) << text;
+    EXPECT_NE(estimate(c, c.runs[1], known_costs(c, {})).plan.basis, PlanBasis::run) << text;
   }
 }
 
@@ -145,7 +146,7 @@ TEST_F(CampaignTest, TimesAreScaledFromTheNearestFinishedRunOfItsKind) {
   const Campaign c = load(two_groups);
   const CampaignRun& coarse = c.runs[0];
   const CampaignRun& fine = c.runs[2];
-  EXPECT_FALSE(estimate(c, fine, known_costs(c, {})).plan.measured);
+  EXPECT_NE(estimate(c, fine, known_costs(c, {})).plan.basis, PlanBasis::run);
   auto done = manifest(c, coarse, "finished");
   done["wall_time_s"] = 10.0;
   done["steps"] = 1000;
@@ -153,10 +154,10 @@ TEST_F(CampaignTest, TimesAreScaledFromTheNearestFinishedRunOfItsKind) {
   done["particles"] = {{"fluid", 5000}, {"solid", 9000}};
   put(coarse, done);
   const CampaignEstimate e = estimate(c, fine, known_costs(c, {}));
-  EXPECT_TRUE(e.plan.measured);
+  EXPECT_EQ(e.plan.basis, PlanBasis::run);
   EXPECT_NEAR(e.plan.steps, 1250, 1e-6);
   EXPECT_NEAR(e.plan.wall_time_s, 10.0 * 1.25 * static_cast<double>(e.plan.particles.fluid) / 5000, 1e-6);
-  EXPECT_FALSE(estimate(c, c.runs[4], known_costs(c, {})).plan.measured) << "other walls";
+  EXPECT_NE(estimate(c, c.runs[4], known_costs(c, {})).plan.basis, PlanBasis::run) << "other walls";
   auto part = manifest(c, fine, "interrupted");
   part["time_s"] = 1.5;
   put(fine, part);
@@ -186,7 +187,29 @@ TEST_F(CampaignTest, ARunBesideTheCampaignTellsTheRateOfItsKind) {
   done["case_hash"] = "another";  // its rate counts, its time step does not
   EXPECT_NEAR(plan_beside().wall_time_s, fluid * constants.steps / (5000 * 1000 / 10.0), 1e-6);
   done["machine"] = "another";
-  EXPECT_FALSE(plan_beside().measured);
+  EXPECT_NE(plan_beside().basis, PlanBasis::run);
+}
+
+TEST_F(CampaignTest, WhereNothingHasRunYetTheFirstStepsTellTheRate) {
+  const std::string group = "name = \"p\"\n[[runs]]\ncase = \"kleefsman\"\nsolver = \"wcsph\"\nl0_m = [0.05, 0.04]\n";
+  EXPECT_TRUE(probe_costs(load(group + "t_end_s = 0.1\n"), false, {}).empty()) << "too short to be worth it";
+  const Campaign c = load(group + "t_end_s = 600\n");
+  const std::vector<RunCost> probed = probe_costs(c, false, {});
+  ASSERT_EQ(probed.size(), 1U) << "one for both particle distances";
+  EXPECT_GE(probed[0].steps, 5);
+  const double rate = probed[0].fluid * probed[0].steps / probed[0].wall_time_s;
+  const Plan constants = plan_run(c.case_of(c.runs[1]), c.runs[1].settings);
+  const Plan plan = estimate(c, c.runs[1], probed).plan;
+  EXPECT_EQ(plan.basis, PlanBasis::probe);
+  EXPECT_EQ(plan.steps, constants.steps);
+  EXPECT_NEAR(plan.wall_time_s, static_cast<double>(plan.particles.fluid) * plan.steps / rate, 1e-6 * plan.wall_time_s);
+  RunCost run = probed[0];
+  run.probed = false;
+  EXPECT_TRUE(probe_costs(c, false, {run}).empty());
+  run.l0_m = 0.01;
+  EXPECT_EQ(estimate(c, c.runs[1], {probed[0], run}).plan.basis, PlanBasis::run) << "farther, but a run";
+  run.case_hash = "another";
+  EXPECT_EQ(estimate(c, c.runs[1], {probed[0], run}).plan.basis, PlanBasis::probe);
 }
 
 /// Alpha moves the time step, in thin layers by a third from 0.1 to 0.001.
@@ -248,6 +271,17 @@ TEST(PaperCampaign, IsThePapersMatrix) {
         papers.push_back(fmt::format("{} {} {:g} {:g} to {:g} s", c.name, run.solver, run.l0_m, alpha, run.t_end_s));
   EXPECT_THAT(ours, testing::UnorderedElementsAreArray(papers));
   EXPECT_EQ(ours.size(), 13U);
+}
+
+TEST(CampaignFiles, AllOfThemCanBeRead) {
+  int files = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator("validation/campaigns")) {
+    const Campaign campaign = load_campaign(entry.path(), "runs", 1);
+    EXPECT_EQ(campaign.name, entry.path().stem());
+    EXPECT_FALSE(campaign.runs.empty()) << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 6);
 }
 
 TEST(PaperCampaign, IsComputedThePapersWay) {

@@ -108,7 +108,7 @@ std::string describe(const Plan& plan, std::optional<std::int64_t> available_byt
       "expected: {:.0f} steps of {:.3g} s, about {} ({})\n",
       plan.particles.fluid, plan.particles.solid, human_bytes(static_cast<double>(plan.memory_bytes)), available,
       plan.steps, plan.dt_s, human_time(plan.wall_time_s),
-      plan.measured ? "by a run of its kind on this machine" : "no run of its kind on this machine yet");
+      plan.basis == PlanBasis::run ? "by a run of its kind on this machine" : "no run of its kind on this machine yet");
 }
 
 std::string human_bytes(double bytes) {

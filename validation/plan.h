@@ -11,13 +11,20 @@
 
 namespace sluice {
 
+/// Where a plan's time comes from.
+enum class PlanBasis {
+  constants,  ///< this program's, of the machine on which they were measured
+  probe,      ///< a second of first steps on this machine (rate_probe.h)
+  run,        ///< a run of the same kind on this machine (run_cost.h)
+};
+
 struct Plan {
   ParticleCounts particles;  ///< beyond 2e7 from volumes and areas, good to a few per cent
   std::int64_t memory_bytes = 0;
   double dt_s = 0;
   double steps = 0;
   double wall_time_s = 0;
-  bool measured = false;  ///< the time: by a run of the same kind on this machine, not by this program's constants
+  PlanBasis basis = PlanBasis::constants;  ///< of the time
 };
 
 /// Throws std::invalid_argument when the geometry cannot be built at this particle distance.

@@ -104,7 +104,7 @@ void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettin
   for (const RunCost& cost : costs) {
     if (cost.solver != s.solver || cost.walls != s.walls || cost.threads != s.threads) continue;
     const double apart = std::abs(std::log(cost.l0_m / s.l0_m)) + 0.35 * decades_apart(cost.alpha, alpha) +
-                         (cost.case_hash == c.hash ? 0.0 : 10.0);
+                         (cost.case_hash == c.hash ? 0.0 : 10.0) + (cost.probed ? 5.0 : 0.0);
     if (apart >= least) continue;
     least = apart;
     nearest = &cost;
@@ -116,7 +116,7 @@ void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettin
   }
   const double particle_steps_per_s = nearest->fluid * nearest->steps / nearest->wall_time_s;
   plan.wall_time_s = static_cast<double>(plan.particles.fluid) * plan.steps / particle_steps_per_s;
-  plan.measured = true;
+  plan.basis = nearest->probed ? PlanBasis::probe : PlanBasis::run;
 }
 
 Plan plan_near(const Case& c, const RunSettings& settings, const fs::path& directory) {

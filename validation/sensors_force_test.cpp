@@ -32,6 +32,8 @@ Case still_water() {
   return c;
 }
 
+const std::string dynamic_walls = "wcsph, dynamic walls";
+
 std::unique_ptr<Solver> make(const std::string& solver, const Case& c, const Scene& scene) {
   if (solver == "mps") {
     mps::Parameters p;
@@ -44,6 +46,7 @@ std::unique_ptr<Solver> make(const std::string& solver, const Case& c, const Sce
   p.water_height_m = c.water_height_m;
   p.speed_of_sound_m_s = 20 * std::sqrt(9.81 * depth_m);
   p.wall_friction = 0;
+  if (solver == dynamic_walls) p.walls = wcsph::WallModel::dynamic;
   return make_wcsph_solver(scene, p, 1);
 }
 
@@ -97,7 +100,7 @@ struct AtRest {
 
 AtRest run_to_rest(const std::string& solver_name) {
   const Case c = still_water();
-  const Scene scene = build_scene(scene_description(c, l0, 3));
+  const Scene scene = build_scene(scene_description(c, l0, solver_name == dynamic_walls ? 1 : 3));
   const auto solver = make(solver_name, c, scene);
   std::vector<std::unique_ptr<Sensor>> sensors;
   for (const Wall& wall : walls()) sensors.push_back(make_force_sensor(force_on(wall), "acceleration", scene));
@@ -156,6 +159,18 @@ TEST_P(StillWater, NetForceOnAWholeBodyIsNone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, StillWater, ::testing::Values("wcsph", "mps"));
+
+/// The paper's walls miss the 3 % by either route: accelerations give 7 to 13 % too little, since fluid stands h off
+/// the wall, and pressures 1.6 to 1.9 times the exact force, since a wall's density ratchets upwards.
+TEST(StillWaterBeforeDynamicWalls, AccelerationsGiveTheForceToAnEighthAndPressuresDoNot) {
+  const AtRest& water = at_rest(dynamic_walls);
+  for (const char* name : {"end wall", "side x+", "side y-"}) {
+    const double exact_N = water.exact_N(name == std::string("end wall") ? 0.24 : column_width_m);
+    const Force& force = water.forces.at(name);
+    EXPECT_NEAR(force.acceleration_N / exact_N, 0.92, 0.08) << "acceleration, " << name;
+    EXPECT_GT(force.pressure_N / exact_N, 1.4) << "if this has become right, hold it to the others' bounds: " << name;
+  }
+}
 
 /// A reading of zero must not come of a sum over nothing.
 TEST(WallPatch, OfAWholeBodyHoldsEveryParticleOfItAndOfTheFloorUnderIt) {

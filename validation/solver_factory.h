@@ -40,6 +40,7 @@ struct SolverCost {
   double bytes_per_particle = 0;
   double dt_s = 0;  ///< mean time step
   double fluid_steps_per_s_and_thread = 0;
+  double whole_run_over_first_steps = 1;  ///< time that a step takes on the mean, over that of a case's first ones
 };
 
 /// Throws std::invalid_argument for an unknown solver.

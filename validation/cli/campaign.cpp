@@ -16,6 +16,7 @@
 #include "validation/cli/usage_error.h"
 #include "validation/plan.h"
 #include "validation/progress.h"
+#include "validation/rate_probe.h"
 #include "validation/run.h"
 #include "validation/run_cost.h"
 
@@ -45,6 +46,19 @@ struct Result {
   std::string error;
 };
 
+/// What is known of costs before the first run: where other runs are, and what the machine's first steps told.
+struct KnownCosts {
+  std::vector<fs::path> others;
+  std::vector<RunCost> probed;
+
+  /// With the campaign's own runs that have finished by now.
+  std::vector<RunCost> now(const Campaign& campaign) const {
+    std::vector<RunCost> costs = known_costs(campaign, others);
+    costs.insert(costs.end(), probed.begin(), probed.end());
+    return costs;
+  }
+};
+
 double remaining_s(const Campaign& campaign, std::size_t from, bool force, const std::vector<RunCost>& costs) {
   double sum = 0;
   for (std::size_t i = from; i < campaign.runs.size(); ++i)
@@ -61,14 +75,15 @@ void print_plan(const Campaign& campaign, bool force, const std::vector<RunCost>
     const CampaignEstimate e = estimate(campaign, run, costs);
     fmt::print("{:10} {:>9} fluid {:>9} solid {:>8} {:>14}{}  {}\n", to_string(state), e.plan.particles.fluid,
                e.plan.particles.solid, human_bytes(static_cast<double>(e.plan.memory_bytes)),
-               state == CampaignState::finished ? "" : human_time(e.remaining_s()), e.plan.measured ? " " : "*",
-               run.directory.filename().string());
+               state == CampaignState::finished ? "" : human_time(e.remaining_s()),
+               e.plan.basis == PlanBasis::run ? " " : "*", run.directory.filename().string());
     to_do += force || state != CampaignState::finished;
     most_bytes = std::max(most_bytes, e.plan.memory_bytes);
   }
   fmt::print(
-      "{}: {} runs, {} to compute, at most {} of memory, about {} (*: from this program's constants, no run of the "
-      "kind on this machine yet)\n",
+      "{}: {} runs, {} to compute, at most {} of memory, about {} (*: no run of the kind on this machine yet; by a "
+      "second "
+      "of its first steps or, if short, this program's constants)\n",
       campaign.name, campaign.runs.size(), to_do, human_bytes(static_cast<double>(most_bytes)),
       human_time(remaining_s(campaign, 0, force, costs)));
   std::fflush(stdout);
@@ -94,7 +109,7 @@ RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Campa
 }
 
 /// A run that fails is told and does not stop the others. Returns the code of an interruption, or 0.
-int compute_all(const Campaign& campaign, const CampaignArguments& arguments, const std::vector<fs::path>& others,
+int compute_all(const Campaign& campaign, const CampaignArguments& arguments, const KnownCosts& known,
                 std::vector<Result>& results) {
   for (std::size_t i = 0; i < campaign.runs.size(); ++i) {
     const CampaignRun& run = campaign.runs[i];
@@ -102,7 +117,7 @@ int compute_all(const Campaign& campaign, const CampaignArguments& arguments, co
       results.push_back({"kept", ""});
       continue;
     }
-    const std::vector<RunCost> costs = known_costs(campaign, others);
+    const std::vector<RunCost> costs = known.now(campaign);
     tell(stderr,
          fmt::format("[{}/{}] {}; {} left of the campaign\n", i + 1, campaign.runs.size(),
                      run.directory.filename().string(), human_time(remaining_s(campaign, i, arguments.force, costs))));
@@ -185,11 +200,11 @@ int compute_only(const Campaign& campaign, const CampaignArguments& arguments) {
 }
 
 int compute_and_report(const Campaign& campaign, const CampaignArguments& arguments, const fs::path& out,
-                       const std::vector<fs::path>& others) {
+                       const KnownCosts& known) {
   std::vector<Result> results;
-  const double planned_s = remaining_s(campaign, 0, arguments.force, known_costs(campaign, others));
+  const double planned_s = remaining_s(campaign, 0, arguments.force, known.now(campaign));
   const auto begin = std::chrono::steady_clock::now();
-  const int interrupted = compute_all(campaign, arguments, others, results);
+  const int interrupted = compute_all(campaign, arguments, known, results);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   const bool all_well = print_results(campaign, results);
   if (interrupted != 0) {
@@ -224,10 +239,11 @@ int run(const CampaignArguments& arguments) {
   if (arguments.report_only) return report_only(campaign, out);
   if (!arguments.only.empty()) return compute_only(campaign, arguments);
   if (slurm && arguments.dry_run) return run_on_slurm(campaign, arguments, out);  // prints nothing but the scripts
-  const std::vector<fs::path> others = runs_near(out);
-  print_plan(campaign, arguments.force, known_costs(campaign, others));
+  KnownCosts known{runs_near(out), {}};
+  if (!slurm) known.probed = probe_costs(campaign, arguments.force, known.now(campaign));
+  print_plan(campaign, arguments.force, known.now(campaign));
   if (slurm) return run_on_slurm(campaign, arguments, out);
-  return arguments.dry_run ? 0 : compute_and_report(campaign, arguments, out, others);
+  return arguments.dry_run ? 0 : compute_and_report(campaign, arguments, out, known);
 }
 
 }  // namespace

@@ -132,10 +132,11 @@ Kernel advance(double particles, int threads) {
   const auto s = std::make_shared<State>("extrapolated", particles, threads);
   // Positions (24), both velocities (24) and both densities (8) read and written, rates (16) read.
   const double bytes = s->n() * (2 * (24 + 24 + 8) + 16);
-  // A component: 2 + 2 of the displacement, 1 of the position, 2 of the leap (2 dt is a constant); 2 of the density;
-  // 5 + 1 of the longest displacement.
-  const double operations = s->n() * (3 * 7 + 2 + 6);
-  return {[s] { advance_fluid(s->fluid, 0.0, wcsph::VerletForm::leap, s->threads); }, {s->n(), bytes, operations}};
+  // A component: 2 + 2 of the displacement, 1 of the position, 2 of the leap (2 dt is a constant); 2 + 1 of the
+  // density and its floor; 5 + 1 of the longest displacement.
+  const double operations = s->n() * (3 * 7 + 3 + 6);
+  return {[s] { advance_fluid(s->fluid, 0.0, wcsph::VerletForm::leap, -1000, s->threads); },
+          {s->n(), bytes, operations}};
 }
 
 /// One reading of all sensors of the case; an item is a reading of one of them.

@@ -212,6 +212,16 @@ TEST_F(CampaignTest, WhereNothingHasRunYetTheFirstStepsTellTheRate) {
   EXPECT_EQ(estimate(c, c.runs[1], {probed[0], run}).plan.basis, PlanBasis::probe);
 }
 
+TEST_F(CampaignTest, FirstStepsThatFailAreNoReasonToStopTheOthers) {
+  const std::string group = "[[runs]]\ncase = \"kleefsman\"\nsolver = \"wcsph\"\nl0_m = [0.05]\nt_end_s = 600\n";
+  const Campaign c = load("name = \"p\"\n" + group + "parameters = { speed_of_sound_m_s = 1e-3 }\n" + group +
+                          "walls = [\"dynamic\"]\n");
+  EXPECT_ANY_THROW(probe_cost(c.case_of(c.runs[0]), c.runs[0].settings));
+  const std::vector<RunCost> probed = probe_costs(c, false, {});
+  ASSERT_EQ(probed.size(), 1U);
+  EXPECT_EQ(probed[0].walls, "dynamic");
+}
+
 /// Alpha moves the time step, in thin layers by a third from 0.1 to 0.001.
 TEST_F(CampaignTest, OfTwoRunsTheOneOfTheNearestAlphaCounts) {
   const Campaign c = load(

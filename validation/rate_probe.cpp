@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <exception>
 
 #include "validation/solver_factory.h"
 
@@ -13,10 +14,6 @@ constexpr int steps_to_warm_up = 3;
 constexpr int fewest_steps = 5;
 constexpr double probe_s = 1;
 constexpr double worth_a_probe_s = 60;
-
-bool same_kind(const RunCost& cost, const RunSettings& settings) {
-  return cost.solver == settings.solver && cost.walls == settings.walls && cost.threads == settings.threads;
-}
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -50,12 +47,16 @@ std::vector<RunCost> probe_costs(const Campaign& campaign, bool force, const std
   std::vector<RunCost> probed;
   for (const CampaignRun& run : campaign.runs) {
     const Case& c = campaign.case_of(run);
-    const auto kin = [&](const RunCost& cost) { return same_kind(cost, run.settings); };
+    const auto kin = [&](const RunCost& cost) { return is_of_kind(cost, run.settings); };
     const auto twin = [&](const RunCost& cost) { return kin(cost) && cost.case_hash == c.hash; };
     if (std::any_of(known.begin(), known.end(), kin) || std::any_of(probed.begin(), probed.end(), twin)) continue;
     if (!force && state_of(campaign, run) == CampaignState::finished) continue;
     if (estimate(campaign, run, {}).remaining_s() < worth_a_probe_s) continue;
-    probed.push_back(probe_cost(c, run.settings));
+    try {
+      probed.push_back(probe_cost(c, run.settings));
+    } catch (const std::exception&) {
+      continue;  // whatever it is, the run itself will tell, and the others go on
+    }
   }
   return probed;
 }

@@ -14,7 +14,8 @@ namespace sluice {
 RunCost probe_cost(const Case& c, const RunSettings& settings);
 
 /// Probes, one a case, solver and walls, of the runs that are to be computed, take a minute or more by this program's
-/// constants, and are of a kind (solver, walls, threads) that is not among the known.
+/// constants, and are of a kind (solver, walls, threads) that is not among the known. One whose
+/// first steps fail has none.
 std::vector<RunCost> probe_costs(const Campaign& campaign, bool force, const std::vector<RunCost>& known);
 
 }  // namespace sluice

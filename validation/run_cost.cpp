@@ -68,6 +68,10 @@ std::vector<fs::path> subdirectories(const fs::path& directory) {
 
 }  // namespace
 
+bool is_of_kind(const RunCost& cost, const RunSettings& settings) {
+  return cost.solver == settings.solver && cost.walls == settings.walls && cost.threads == settings.threads;
+}
+
 std::vector<RunCost> run_costs(const std::vector<fs::path>& directories) {
   std::vector<RunCost> costs;
   const std::string machine = machine_fingerprint();
@@ -102,7 +106,7 @@ void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettin
   double least = std::numeric_limits<double>::infinity();
   const double alpha = alpha_of(s.parameters);
   for (const RunCost& cost : costs) {
-    if (cost.solver != s.solver || cost.walls != s.walls || cost.threads != s.threads) continue;
+    if (!is_of_kind(cost, s)) continue;
     const double apart = std::abs(std::log(cost.l0_m / s.l0_m)) + 0.35 * decades_apart(cost.alpha, alpha) +
                          (cost.case_hash == c.hash ? 0.0 : 10.0) + (cost.probed ? 5.0 : 0.0);
     if (apart >= least) continue;

@@ -27,6 +27,9 @@ struct RunCost {
   bool probed = false;  ///< no run, but a second of its first steps (rate_probe.h)
 };
 
+/// Whether it has a run's solver, walls and number of threads: what a rate hangs on most.
+bool is_of_kind(const RunCost& cost, const RunSettings& settings);
+
 /// Of the finished runs of this machine in these directories. What is no run, cannot be read, or was not computed here
 /// is passed over.
 std::vector<RunCost> run_costs(const std::vector<std::filesystem::path>& directories);

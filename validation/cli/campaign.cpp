@@ -67,7 +67,8 @@ double remaining_s(const Campaign& campaign, std::size_t from, bool force, const
   return sum;
 }
 
-void print_plan(const Campaign& campaign, bool force, const std::vector<RunCost>& costs) {
+/// Returns the time that it expects for all [s].
+double print_plan(const Campaign& campaign, bool force, const std::vector<RunCost>& costs) {
   std::size_t to_do = 0;
   std::int64_t most_bytes = 0;
   for (const CampaignRun& run : campaign.runs) {
@@ -80,13 +81,14 @@ void print_plan(const Campaign& campaign, bool force, const std::vector<RunCost>
     to_do += force || state != CampaignState::finished;
     most_bytes = std::max(most_bytes, e.plan.memory_bytes);
   }
+  const double planned_s = remaining_s(campaign, 0, force, costs);
   fmt::print(
       "{}: {} runs, {} to compute, at most {} of memory, about {} (*: no run of the kind on this machine yet; by a "
       "second "
       "of its first steps or, if short, this program's constants)\n",
-      campaign.name, campaign.runs.size(), to_do, human_bytes(static_cast<double>(most_bytes)),
-      human_time(remaining_s(campaign, 0, force, costs)));
+      campaign.name, campaign.runs.size(), to_do, human_bytes(static_cast<double>(most_bytes)), human_time(planned_s));
   std::fflush(stdout);
+  return planned_s;
 }
 
 RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const CampaignArguments& arguments) {
@@ -200,9 +202,8 @@ int compute_only(const Campaign& campaign, const CampaignArguments& arguments) {
 }
 
 int compute_and_report(const Campaign& campaign, const CampaignArguments& arguments, const fs::path& out,
-                       const KnownCosts& known) {
+                       const KnownCosts& known, double planned_s) {
   std::vector<Result> results;
-  const double planned_s = remaining_s(campaign, 0, arguments.force, known.now(campaign));
   const auto begin = std::chrono::steady_clock::now();
   const int interrupted = compute_all(campaign, arguments, known, results);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
@@ -240,10 +241,12 @@ int run(const CampaignArguments& arguments) {
   if (!arguments.only.empty()) return compute_only(campaign, arguments);
   if (slurm && arguments.dry_run) return run_on_slurm(campaign, arguments, out);  // prints nothing but the scripts
   KnownCosts known{runs_near(out), {}};
-  if (!slurm) known.probed = probe_costs(campaign, arguments.force, known.now(campaign));
-  print_plan(campaign, arguments.force, known.now(campaign));
+  std::vector<RunCost> costs = known.now(campaign);
+  if (!slurm) known.probed = probe_costs(campaign, arguments.force, costs);
+  costs.insert(costs.end(), known.probed.begin(), known.probed.end());
+  const double planned_s = print_plan(campaign, arguments.force, costs);
   if (slurm) return run_on_slurm(campaign, arguments, out);
-  return arguments.dry_run ? 0 : compute_and_report(campaign, arguments, out, known);
+  return arguments.dry_run ? 0 : compute_and_report(campaign, arguments, out, known, planned_s);
 }
 
 }  // namespace

@@ -45,7 +45,9 @@ struct Lanes<double> {
   static void store(double v, double* p) { *p = v; }
   static void store_between(double v, double low, double high, std::int32_t* p) { *p = v > low && v < high; }
   static double first(int) { return 1; }
-  static void add(double* p, double v, int) { *p += v; }
+  using Window = int;
+  static Window window(int n) { return n; }
+  static void add(double* p, double v, Window) { *p += v; }
 };
 
 /// Fast path: a pack of single precision.
@@ -114,18 +116,25 @@ struct Lanes<FloatPack> {
     return load(&ones_then_zeros[static_cast<std::size_t>(width - n)]);
   }
 
-  /// Adds the first n lanes to memory; the memory behind them is not touched.
-  [[gnu::always_inline]] static void add(float* p, FloatPack v, int n) {
+  /// The first n lanes of a pack.
+  struct Window {
+    FloatPack::mask_type inside;
+    int n;
+  };
+  [[gnu::always_inline]] static Window window(int n) { return {first(n) > FloatPack{}, n}; }
+
+  /// Adds the lanes of a window to memory; the memory behind them is not touched.
+  [[gnu::always_inline]] static void add(float* p, FloatPack v, const Window& window) {
     const FloatPack sum = load(p) + v;
     if constexpr (width > 4) {
-      stdx::where(first(n) > FloatPack{}, sum).copy_to(p, stdx::element_aligned);
-    } else if (n == width) {
+      stdx::where(window.inside, sum).copy_to(p, stdx::element_aligned);
+    } else if (window.n == width) {
       store(sum, p);
     } else {
       // SSE2's masked store goes past the caches: with it all of a step took 20 times as long.
       std::array<float, width> values;
       store(sum, values.data());
-      std::copy_n(values.begin(), n, p);
+      std::copy_n(values.begin(), window.n, p);
     }
   }
 

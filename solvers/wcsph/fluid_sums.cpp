@@ -18,35 +18,18 @@ struct FluidSums {
   Pack diffusion{0};
 };
 
-/// The terms of a pack of pairs.
-template <class Pack>
-struct PairTerms {
-  Pack g;         ///< shape of the kernel's gradient
-  Pack approach;  ///< u_ij . r_ij
-  Pack force;     ///< of Eq. (3), to be taken times r_ij
-};
-
 /// largest_mu, shared by all particles of a thread, grows where a pair's |mu| / h exceeds it: that is rare, and so a
 /// test is cheaper than a maximum for every pair.
 template <class Pack>
-[[gnu::always_inline]] inline PairTerms<Pack> pair_terms(const Target<Pack>& i, const Particles<Pack>& neighbours,
-                                                         std::size_t j, const Pairs<Pack>& p,
-                                                         const PairConstants<Pack>& c, const PairLaw<Pack>& law,
-                                                         Pack& largest_mu) {
-  using L = Lanes<Pack>;
-  const Vec3<Pack> velocity{L::load(&neighbours.velocity.x[j]), L::load(&neighbours.velocity.y[j]),
-                            L::load(&neighbours.velocity.z[j])};
-  const Pack g = wendland_gradient_shape(p.taper);
-  const Pack approach = dot(velocity - i.velocity, p.r);
-  const auto viscosity = artificial_viscosity(approach, p.distance2, c.eta2,
-                                              i.density_and_twice_reference + L::load(&neighbours.density[j]),
-                                              i.sound + L::load(&neighbours.sound[j]));
+[[gnu::always_inline]] inline Pack pair_force(const Target<Pack>& i, const Neighbours<Pack>& j, const Pairs<Pack>& p,
+                                              const Pack& g, const Pack& approach, const PairConstants<Pack>& c,
+                                              const PairLaw<Pack>& law, Pack& largest_mu) {
+  const auto viscosity =
+      artificial_viscosity(approach, p.distance2, c.eta2, i.density_and_twice_reference + j.density, i.sound + j.sound);
   const Pack mu = magnitude(viscosity.mu);
   if (any_larger(mu, largest_mu, p.taper)) largest_mu = Pack(lane_max(larger(where_positive(p.taper, mu), largest_mu)));
-  const Pack pressure = borne_pressure(i.pressure, L::load(&neighbours.pressure[j]), law.least_pressure_sum);
-  const Pack force = momentum_term(i.pressure, pressure, i.inverse_density, L::load(&neighbours.volume[j]),
-                                   law.viscosity_factor * viscosity.Pi, g);
-  return {g, approach, force};
+  const Pack pressure = borne_pressure(i.pressure, j.pressure, law.least_pressure_sum);
+  return momentum_term(i.pressure, pressure, i.inverse_density, j.volume, law.viscosity_factor * viscosity.Pi, g);
 }
 
 /// Fluid with fluid: each pair is visited once, and what i gathers, j is handed with the opposite sign where it has
@@ -58,22 +41,23 @@ void sum_fluid_pairs(const Target<Pack>& i, Particles<Pack>& fluid, const PackLi
   FluidSums<Pack> sums;
   Pack largest = largest_mu;
   for (const PackOfRun& pack : packs) {
-    const auto j = static_cast<std::size_t>(pack.begin);
+    const auto at = static_cast<std::size_t>(pack.begin);
+    const auto window = L::window(pack.count);
     const Pairs<Pack> p = pairs(i.x, fluid, pack, c);
-    const PairTerms<Pack> t = pair_terms(i, fluid, j, p, c, c.with_fluid, largest);
-    const Vec3<Pack> momentum = t.force * p.r;
+    const Neighbours<Pack> j(fluid, at);
+    const Pack g = wendland_gradient_shape(p.taper);
+    const Pack approach = dot(j.velocity - i.velocity, p.r);
+    const Vec3<Pack> momentum = pair_force(i, j, p, g, approach, c, c.with_fluid, largest) * p.r;
+    const Pack continuity = continuity_term(g, approach);
+    const Pack rate =
+        c.continuity_factor * continuity + c.diffusion_factor * diffusion_term(j.density, i.density, i.volume, g);
     sums.momentum += momentum;
-    L::add(&fluid.acceleration.x[j], -momentum.x, pack.count);
-    L::add(&fluid.acceleration.y[j], -momentum.y, pack.count);
-    L::add(&fluid.acceleration.z[j], -momentum.z, pack.count);
-
-    const Pack density = L::load(&fluid.density[j]);
-    const Pack continuity = continuity_term(t.g, t.approach);
     sums.continuity += continuity;
-    sums.diffusion += diffusion_term(i.density, density, L::load(&fluid.volume[j]), t.g);
-    L::add(&fluid.density_rate[j],
-           c.continuity_factor * continuity + c.diffusion_factor * diffusion_term(density, i.density, i.volume, t.g),
-           pack.count);
+    sums.diffusion += diffusion_term(i.density, j.density, j.volume, g);
+    L::add(&fluid.acceleration.x[at], -momentum.x, window);
+    L::add(&fluid.acceleration.y[at], -momentum.y, window);
+    L::add(&fluid.acceleration.z[at], -momentum.z, window);
+    L::add(&fluid.density_rate[at], rate, window);
   }
   into = sums;
   largest_mu = largest;
@@ -87,9 +71,11 @@ void sum_wall_pairs(const Target<Pack>& i, const Particles<Pack>& walls, const P
   Pack largest = largest_mu;
   for (const PackOfRun& pack : packs) {
     const Pairs<Pack> p = pairs(i.x, walls, pack, c);
-    const PairTerms<Pack> t = pair_terms(i, walls, static_cast<std::size_t>(pack.begin), p, c, c.with_wall, largest);
-    sums.momentum += t.force * p.r;
-    sums.continuity += continuity_term(t.g, t.approach);
+    const Neighbours<Pack> j(walls, static_cast<std::size_t>(pack.begin));
+    const Pack g = wendland_gradient_shape(p.taper);
+    const Pack approach = dot(j.velocity - i.velocity, p.r);
+    sums.momentum += pair_force(i, j, p, g, approach, c, c.with_wall, largest) * p.r;
+    sums.continuity += continuity_term(g, approach);
   }
   into = sums;
   largest_mu = largest;

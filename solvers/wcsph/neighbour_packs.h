@@ -78,6 +78,24 @@ template <class Pack>
   return p;
 }
 
+/// What a pack of neighbours brings to a sum.
+template <class Pack>
+struct Neighbours {
+  Vec3<Pack> velocity;
+  Pack density;
+  Pack pressure;
+  Pack sound;
+  Pack volume;
+
+  [[gnu::always_inline]] Neighbours(const Particles<Pack>& p, std::size_t j)
+      : velocity{Lanes<Pack>::load(&p.velocity.x[j]), Lanes<Pack>::load(&p.velocity.y[j]),
+                 Lanes<Pack>::load(&p.velocity.z[j])},
+        density(Lanes<Pack>::load(&p.density[j])),
+        pressure(Lanes<Pack>::load(&p.pressure[j])),
+        sound(Lanes<Pack>::load(&p.sound[j])),
+        volume(Lanes<Pack>::load(&p.volume[j])) {}
+};
+
 /// The particle whose sums are gathered.
 template <class Pack>
 struct Target {

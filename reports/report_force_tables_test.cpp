@@ -1,0 +1,287 @@
+// Tables of cases with forces: measured ones, and one whose measurement a user has to supply.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "reports/report.h"
+#include "reports/studies.h"
+#include "reports/synthetic_run.h"
+#include "reports/tables.h"
+#include "reports/test_files.h"
+#include "validation/digest.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using synthetic::MadeForceRun;
+
+using test_files::fresh;
+using test_files::read;
+
+const TableCell& cell(const Table& table, const std::string& start, const std::string& csv_name,
+                      const std::string& second = "") {
+  static const TableCell none{"no such cell", std::nullopt};
+  for (std::size_t k = 0; k < table.columns.size(); ++k)
+    for (const TableRow& row : table.rows)
+      if (table.columns[k].csv_name == csv_name && !row.is_group() && row.cells[0].text.starts_with(start) &&
+          (second.empty() || row.cells[1].text.starts_with(second)))
+        return row.cells[k];
+  ADD_FAILURE() << "no row " << start << " with a column " << csv_name << " in " << table.name;
+  return none;
+}
+
+TEST(ForceTables, KnownScaleAndShiftGiveKnownNumbersByBothRoutes) {
+  const fs::path dir = fresh("force_known");
+  MadeForceRun run;
+  run.scale = 1.1;
+  run.second_scale = 0.7;
+  synthetic::write_force_run(dir, run);
+  const ReportData data = analyse({dir});
+  const Table impulses = force_impulses_table(data, "F_column");
+  EXPECT_NEAR(*cell(impulses, "Experiment", "impulse_0.3_1.3_s_N_s").value, 13.35, 0.01);
+  EXPECT_NEAR(*cell(impulses, "R1", "impulse_0.3_1.3_s_deviation_percent", "acceleration").value, 10, 0.5);
+  EXPECT_NEAR(*cell(impulses, "R1", "impulse_0.3_1.3_s_deviation_percent", "pressure").value, -30, 0.5);
+  EXPECT_NEAR(*cell(impulses, "R1", "impulse_1.4_2.3_s_deviation_percent", "acceleration").value, 10, 1);
+  EXPECT_GT(*cell(impulses, "R1", "inside_band_percent", "acceleration").value, 30);
+  run.scale = 1;
+  run.shift_s = 0.02;
+  synthetic::write_force_run(dir, run);
+  const Table peaks = force_peaks_table(analyse({dir}));
+  // A line through bin means rises less steeply than the band's points: some milliseconds.
+  EXPECT_NEAR(*cell(peaks, "R1", "half_peak_difference_ms", "acceleration").value, 20, 3);
+}
+
+TEST(ForceTables, MeanOfTheBandLiesInsideIt) {
+  const fs::path dir = fresh("force_band");
+  synthetic::write_force_run(dir, {});
+  const Table table = force_impulses_table(analyse({dir}), "F_column");
+  EXPECT_GT(*cell(table, "R1", "inside_band_percent", "acceleration").value, 75);
+  EXPECT_LT(*cell(table, "R1", "rmse_over_range_percent", "acceleration").value, 2);
+}
+
+TEST(ForceTables, AcceptanceOfTheColumn) {
+  const fs::path good = fresh("force_accept_good");
+  const fs::path bad = fresh("force_accept_bad");
+  MadeForceRun run;
+  synthetic::write_force_run(good, run);
+  run.alpha = 0.001;
+  run.shift_s = 0.04;
+  run.scale = 1.3;
+  synthetic::write_force_run(bad, run);
+  const ReportData data = analyse({good, bad});
+  EXPECT_TRUE(all_passed(data.runs[0].acceptance)) << acceptance_table(data.runs[0].acceptance);
+  int failed = 0;
+  for (const AcceptanceCheck& check : data.runs[1].acceptance) failed += check.verdict == AcceptanceVerdict::fail;
+  EXPECT_EQ(failed, 3) << acceptance_table(data.runs[1].acceptance);
+}
+
+TEST(ForceTables, PeakAndImpulseConvergeOrSayThatTheyDoNot) {
+  std::vector<fs::path> dirs;
+  MadeForceRun run;
+  run.case_name = "aureli";
+  for (double l0 : {0.04, 0.02, 0.01}) {
+    dirs.push_back(fresh("force_resolution_" + std::to_string(dirs.size())));
+    run.l0_m = l0;
+    run.scale = 1 + 100 * l0 * l0;
+    synthetic::write_force_run(dirs.back(), run);
+  }
+  const Table table = resolution_table(analyse(dirs));
+  EXPECT_TRUE(cell(table, "F_block peak", "observed_order").text.starts_with("order 2.0"));
+  EXPECT_NE(cell(table, "F_block impulse", "observed_order").text.find("grid convergence index"), std::string::npos);
+  EXPECT_NEAR(*cell(table, "F_block impulse", "l0_40_mm").value, 1.16, 0.01) << "10 N over 0.1 s";
+  run.scale = 3;
+  synthetic::write_force_run(dirs.back(), run);
+  EXPECT_EQ(cell(resolution_table(analyse(dirs)), "F_block impulse", "observed_order").text,
+            "not in the asymptotic range");
+}
+
+TEST(ForceTables, ErrorsStandBesideWhatIsUncertain) {
+  std::vector<fs::path> runs;
+  MadeForceRun made;
+  for (const double l0_m : {0.04, 0.02, 0.01}) {  // first order towards 1.1
+    runs.push_back(fresh("force_uncertain_" + std::to_string(runs.size())));
+    made.l0_m = l0_m;
+    made.scale = 1.1 + 5 * l0_m;
+    synthetic::write_force_run(runs.back(), made);
+  }
+  const Table table = validation_uncertainty_table(analyse(runs));
+  const double measured = *cell(table, "F_column impulse", "measured").value;
+  EXPECT_NEAR(*cell(table, "F_column impulse", "error").value, 0.15 * measured, 0.01 * measured);
+  EXPECT_NEAR(*cell(table, "F_column impulse", "u_num").value, 1.25 / 1.15 * 0.05 * measured, 0.005 * measured);
+  EXPECT_GT(*cell(table, "F_column impulse", "u_D").value, 0.5) << "[N s]: a band of 1.4 N over two seconds";
+  EXPECT_EQ(cell(table, "F_column impulse", "u_input").text, "missing");
+}
+
+TEST(ForceTables, SeriesWithoutAMeasurementLeaveNoHeadings) {
+  std::vector<fs::path> runs;
+  const auto write_series = [&](const std::string& case_name) {
+    runs.clear();
+    for (const double l0_m : {0.025, 0.0125})
+      for (const double alpha : {0.1, 0.01}) {
+        runs.push_back(fresh(fmt::format("force_headings_{}", runs.size())));
+        MadeForceRun made;
+        made.case_name = case_name;
+        made.l0_m = l0_m;
+        made.alpha = alpha;
+        synthetic::write_force_run(runs.back(), made);
+      }
+  };
+  write_series("aureli");
+  const ReportData unmeasured = analyse(runs);
+  ASSERT_EQ(alpha_series(unmeasured).size(), 2u);
+  EXPECT_TRUE(best_alpha_table(unmeasured).rows.empty());
+  EXPECT_TRUE(validation_uncertainty_table(unmeasured).rows.empty());
+  const fs::path out = fresh("force_headings_out");
+  ReportOptions options;
+  options.figures = false;
+  write_report(runs, out, options);
+  EXPECT_FALSE(fs::exists(out / "tables/best_alpha.csv"));
+  write_series("column");
+  const Table best = best_alpha_table(analyse(runs));
+  ASSERT_EQ(best.rows.size(), 6u) << "a heading and two quantities of each series";
+  EXPECT_TRUE(best.rows[0].is_group());
+  EXPECT_TRUE(best.rows[3].is_group());
+}
+
+TEST(ForceTables, StatementsOnTheForceNeedAMeasurementOrNot) {
+  const fs::path viscous = fresh("force_statement_viscous");
+  const fs::path thin = fresh("force_statement_thin");
+  const fs::path mps = fresh("force_statement_mps");
+  MadeForceRun run;
+  run.case_name = "aureli";
+  run.l0_m = 0.01;
+  run.alpha = 0.1;
+  run.noise_N = 0.2;
+  synthetic::write_force_run(viscous, run);
+  run.alpha = 0.01;
+  run.noise_N = 0.5;
+  synthetic::write_force_run(thin, run);
+  run.solver = "mps";
+  run.walls = "dummies";
+  synthetic::write_force_run(mps, run);
+  const Table table = conclusions_table(analyse({viscous, thin, mps}));
+  ASSERT_EQ(table.rows.size(), 4u);
+  EXPECT_EQ(cell(table, "α = 0.1 gives the best force", "verdict").text, "no measurement");
+  EXPECT_EQ(cell(table, "Oscillations", "verdict").text, "agrees") << cell(table, "Oscillations", "runs").text;
+  EXPECT_EQ(cell(table, "MPS costs 2.0 times WCSPH", "paper").text, "1.2 times at l0 = 5 mm, 2.0 times at l0 = 2.5 mm");
+  EXPECT_EQ(cell(table, "MPS costs 2.0 times WCSPH", "verdict").text, "does not agree") << "the same cost";
+}
+
+TEST(ForceTables, LengthsThatSourcesLeaveOpenHaveTheirTableAndAreNoResolutionOrAlpha) {
+  const fs::path near = fresh("force_placement_near");
+  const fs::path far = fresh("force_placement_far");
+  MadeForceRun run;
+  run.case_name = "aureli";
+  run.l0_m = 0.02;
+  synthetic::write_force_run(far, run);
+  run.parameters = {{"block_distance_m", 0.45}};
+  run.shift_s = -0.05;
+  run.alpha = 0.1;
+  synthetic::write_force_run(near, run);
+  EXPECT_TRUE(placements_table(analyse({near, far})).rows.empty()) << "they differ in alpha too";
+  EXPECT_TRUE(alpha_series(analyse({near, far})).empty()) << "and in the place of the block";
+  run.alpha = 0.01;
+  synthetic::write_force_run(near, run);
+  const ReportData data = analyse({near, far});
+  const Table table = placements_table(data);
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(*table.rows[1].cells[2].value, 0.45);
+  EXPECT_NEAR(*table.rows[2].cells[3].value - *table.rows[1].cells[3].value, 0.05, 1e-6) << "arrival";
+  EXPECT_TRUE(resolution_series(data).empty());
+  for (const AnalysedRun& r : data.runs) {
+    const double drawn_m = data.the_case.obstacles.back().box.upper.x;
+    const double at_m = placed_at_m(data.the_case.placements.front(), r.record);
+    EXPECT_NEAR(placed_obstacles(data.the_case, r.record).back().box.upper.x, drawn_m + 0.51 - at_m, 1e-12);
+  }
+}
+
+TEST(ForceTables, RunsOfOtherParametersAreNoResolutionOrAlphaStudy) {
+  MadeForceRun run;
+  std::vector<fs::path> directories;
+  for (const double l0_m : {0.02, 0.0125, 0.01}) {
+    run.l0_m = l0_m;
+    directories.push_back(fresh(fmt::format("force_method_{}", l0_m)));
+    synthetic::write_force_run(directories.back(), run);
+  }
+  const auto all = resolution_series(analyse(directories));
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].runs.size(), 3u);
+
+  run.l0_m = 0.0125;
+  run.parameters = {{"delta", 0.02}};
+  synthetic::write_force_run(directories[1], run);
+  run.alpha = 0.1;
+  run.parameters = {};
+  directories.push_back(fresh("force_method_alpha"));
+  synthetic::write_force_run(directories.back(), run);
+  const ReportData data = analyse(directories);
+  const auto alike = resolution_series(data);
+  ASSERT_EQ(alike.size(), 1u);
+  EXPECT_EQ(alike[0].runs.size(), 2u);
+  EXPECT_TRUE(alpha_series(data).empty()) << "delta differs as well";
+}
+
+TEST(ForceTables, WallsAreComparedBetweenRunsOfTheSameParameters) {
+  MadeForceRun run;
+  const std::vector<fs::path> directories{fresh("force_walls_ours"), fresh("force_walls_paper")};
+  synthetic::write_force_run(directories[0], run);
+  run.walls = "dynamic";
+  synthetic::write_force_run(directories[1], run);
+  EXPECT_EQ(wall_pairs(analyse(directories)).size(), 1u);
+  run.parameters = {{"not_in_the_case_file", 1}};
+  synthetic::write_force_run(directories[1], run);
+  EXPECT_TRUE(wall_pairs(analyse(directories)).empty());
+}
+
+/// A working directory with a user's file in it, as in a clone.
+class UsersMeasurement : public testing::Test {
+ protected:
+  void SetUp() override {
+    before_ = fs::current_path();
+    folder_ = fresh("force_user");
+    fs::create_directories(folder_ / "data");
+    fs::copy(resolve_in_source_tree("data/aureli2015"), folder_ / "data/aureli2015", fs::copy_options::recursive);
+    fs::remove(folder_ / "data/aureli2015/digest.csv");
+    fs::current_path(folder_);
+  }
+  void TearDown() override { fs::current_path(before_); }
+
+  fs::path before_;
+  fs::path folder_;
+};
+
+TEST_F(UsersMeasurement, IsMissingUntilAFileOfTheStatedFormIsThere) {
+  MadeForceRun run;
+  run.case_name = "aureli";
+  run.l0_m = 0.02;
+  run.scale = 1.2;
+  synthetic::write_force_run("run", run);
+  ReportData data = analyse({"run"});
+  EXPECT_EQ(data.measured_series("F_block"), nullptr);
+  EXPECT_EQ(data.measured_remark("F_block"), "Measured: missing.");
+  ASSERT_EQ(data.measured.problems().size(), 1u);
+  EXPECT_NE(data.measured.problems()[0].find("data/aureli2015/README.md"), std::string::npos);
+  EXPECT_EQ(cell(force_peaks_table(data), "Experiment", "peak_N").text, "missing");
+  EXPECT_EQ(cell(force_peaks_table(data), "R1", "peak_deviation_percent").text, "missing");
+
+  fs::create_directories("raw/aureli2015");
+  std::ofstream out("raw/aureli2015/force.csv");
+  out << "t_s,F_N\n";
+  for (int k = 0; k <= 600; ++k) {
+    const double t = 0.005 * k;
+    out << t << ',' << std::max(0.0, 10 * (1 - std::abs(t - 0.6) / 0.1)) << '\n';
+  }
+  out.close();
+  EXPECT_EQ(make_digests("data/aureli2015", "raw").front(), "data/aureli2015/digest.csv");
+  data = analyse({"run"});
+  EXPECT_TRUE(data.measured.problems().empty());
+  EXPECT_NEAR(*cell(force_peaks_table(data), "Experiment", "peak_N").value, 10, 1e-9);
+  EXPECT_NEAR(*cell(force_peaks_table(data), "R1", "peak_deviation_percent", "acceleration").value, 20, 1);
+  EXPECT_NEAR(*cell(force_impulses_table(data, "F_block"), "R1", "impulse_0_3_s_deviation_percent").value, 20, 0.5);
+  EXPECT_EQ(cell(force_impulses_table(data, "F_block"), "R1", "inside_band_percent").text, "missing") << "no band";
+}
+
+}  // namespace
+}  // namespace sluice

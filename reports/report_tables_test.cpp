@@ -1,0 +1,246 @@
+// Tables of cases with pressures, on runs whose errors are known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "reports/report.h"
+#include "reports/synthetic_run.h"
+#include "reports/tables.h"
+#include "reports/test_files.h"
+#include "reports/test_tables.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using synthetic::MadeRun;
+
+using test_files::cell;
+using test_files::fresh;
+using test_files::read;
+
+TEST(ReportTables, KnownScaleAndShiftGiveKnownNumbers) {
+  const fs::path dir = fresh("known");
+  MadeRun run;
+  run.scale = 1.1;
+  run.second_scale = 0.7;
+  run.shift_s = 0.02;
+  synthetic::write_run(dir, run);
+  const ReportData data = analyse({dir});
+  const Table impulses = impulses_table(data, true);
+  // The shift pushes the last 20 ms of the measured curve out of the window.
+  const MeasuredSeries& p1 = *data.measured_series("P1");
+  const double kept = *impulse(p1, {0, 5.98}) / *impulse(p1, {0, 6});
+  EXPECT_NEAR(*cell(impulses, "R1", "P1_percent", "wall (primary)").value, 100 * (1.1 * kept - 1), 0.02);
+  EXPECT_NEAR(*cell(impulses, "R1", "P1_percent", "kernel").value, 100 * (0.7 * kept - 1), 0.02);
+  const Table paper = paper_impulses_table(data);
+  EXPECT_NEAR(*cell(paper, "R1", "P1_unsigned_deviation_percent", "kernel").value, 100 * (1 - 0.7 * kept), 0.02);
+  EXPECT_NEAR(*cell(paper, "Experiment", "P1_Pa_s").value, 13391.65, 0.5);
+  EXPECT_EQ(cell(paper, "Paper: WCSPH, α = 0.01", "P2_Pa_s").value, 5390);
+  const Table metrics = sensor_metrics_table(data, SensorKind::pressure, false);
+  EXPECT_NEAR(*cell(metrics, "R1", "best_lag_ms").value, 20, 1);
+  EXPECT_NEAR(*cell(metrics, "R1", "arrival_difference_ms").value, 20, 3);
+  const Table waves = sensor_metrics_table(data, SensorKind::wave_height, true);
+  EXPECT_NEAR(*cell(waves, "R1", "peak_deviation_percent", "column (primary)").value, 10, 1.5);
+  EXPECT_NEAR(*cell(waves, "R1", "peak_deviation_percent", "top").value, 21, 1.5);
+}
+
+TEST(ReportTables, AnExternalCodeNeedsThreeLinesAndMissingStaysMissing) {
+  const fs::path dir = fresh("external");
+  synthetic::write_external_run(dir, 0.5);
+  const ReportData data = analyse({dir});
+  const Table paper = paper_impulses_table(data);
+  EXPECT_NEAR(*cell(paper, "R1", "P1_unsigned_deviation_percent", "as delivered").value, 50, 0.3);
+  EXPECT_EQ(cell(paper, "R1", "P2_Pa_s").text, "missing");
+  const Table parameters = parameters_table(data);
+  for (const char* column : {"steps", "wall_time_s", "fluid_particles", "alpha", "peak_memory_bytes"})
+    EXPECT_EQ(cell(parameters, "R1", column).text, "missing") << column;
+  EXPECT_EQ(cell(provenance_table(data), "R1", "commit").text, "missing");
+  EXPECT_EQ(cell(provenance_table(data), "R1", "lost_through_walls").text, "missing") << "never a zero";
+}
+
+TEST(ReportTables, SaysWhatTheKernelProbeSaw) {
+  const fs::path dir = fresh("support");
+  synthetic::write_run(dir, {});
+  const ReportData data = analyse({dir});
+  EXPECT_EQ(*cell(kernel_support_table(data), "R1", "P1_percent").value, 100) << "support 0.8 throughout";
+  const fs::path external = fresh("support_external");
+  synthetic::write_external_run(external, 1);
+  EXPECT_EQ(cell(kernel_support_table(analyse({external})), "R1", "P1_percent").text, "missing");
+}
+
+TEST(ReportTables, AnInterruptedRunIsFlaggedAndHasNoImpulse) {
+  const fs::path dir = fresh("interrupted");
+  MadeRun run;
+  run.t_end_s = 1.5;
+  run.status = "interrupted";
+  synthetic::write_run(dir, run);
+  const ReportData data = analyse({dir});
+  EXPECT_EQ(cell(runs_table(data), "R1", "status").text, "interrupted");
+  EXPECT_NE(cell(runs_table(data), "R1", "remarks").text.find("covers 1.50 s"), std::string::npos);
+  EXPECT_EQ(cell(paper_impulses_table(data), "R1", "P1_Pa_s").text, "missing");
+}
+
+TEST(ReportTables, CostsOfTheTwoMethodsStandSideBySideAtEqualParticleDistance) {
+  const fs::path wcsph = fresh("cost_wcsph");
+  const fs::path mps = fresh("cost_mps");
+  synthetic::write_run(wcsph, {});
+  EXPECT_TRUE(cost_ratio_table(analyse({wcsph})).rows.empty()) << "one method alone has no ratio";
+  MadeRun run;
+  run.solver = "mps";
+  run.walls = "dummies";
+  run.t_end_s = 3.0;  // the same wall time for half as much
+  synthetic::write_run(mps, run);
+  const Table table = cost_ratio_table(analyse({mps, wcsph}));
+  ASSERT_EQ(table.rows.size(), 2U);
+  EXPECT_NEAR(*table.rows[0].cells.back().value, 2.0, 1e-9);
+  EXPECT_NEAR(*table.rows[1].cells.back().value, 223200.0 / 126000.0, 1e-9) << "the paper's";
+  run.l0_m = 0.03;
+  synthetic::write_run(mps, run);
+  EXPECT_TRUE(cost_ratio_table(analyse({mps, wcsph})).rows.empty()) << "not at different ones";
+}
+
+TEST(ReportTables, LabelsSayWhatARunHasSetOtherwiseThanTheCase) {
+  const fs::path dir = fresh("changed");
+  synthetic::write_run(dir, {});
+  std::ifstream in(dir / "run.json");
+  auto manifest = nlohmann::json::parse(in);
+  EXPECT_EQ(analyse({dir}).runs[0].label, "R1 WCSPH extrapolated, α = 0.01, l0 20 mm");
+  manifest["parameters"] = {{"alpha", 0.01}, {"delta", 0.02}, {"wall_friction", 0.0}, {"courant", 0.2}};
+  std::ofstream(dir / "run.json") << manifest;
+  EXPECT_EQ(analyse({dir}).runs[0].label, "R1 WCSPH extrapolated, α = 0.01, l0 20 mm, delta = 0.02")
+      << "friction 0 is the walls' own default";
+}
+
+TEST(ReportTables, UnitsThatCannotBeRightAreDoubted) {
+  const fs::path dir = fresh("units");
+  synthetic::write_external_run(dir, 1000.0);
+  const auto problems = analyse({dir}).runs[0].problems;
+  ASSERT_EQ(problems.size(), 2U);
+  EXPECT_NE(problems[1].find("P1 peaks at"), std::string::npos) << problems[1];
+  EXPECT_NE(problems[1].find("is its unit Pa?"), std::string::npos) << problems[1];
+  synthetic::write_external_run(dir, 2.0);
+  EXPECT_TRUE(analyse({dir}).runs[0].problems.empty());
+  std::ofstream(dir / "probes.csv") << "t_s,P1_Pa\n0,0\n400,5000\n6000,0\n";
+  EXPECT_EQ(analyse({dir}).runs[0].problems.back(), "ends at 6000 s, the case at 6.0 s: are its times in s?");
+}
+
+TEST(ReportTables, EnergyAndCompressionOfTheFluid) {
+  const fs::path own = fresh("conservation");
+  const fs::path external = fresh("conservation_external");
+  synthetic::write_run(own, {});
+  synthetic::write_external_run(external, 1.0);
+  const Table table = conservation_table(analyse({own, external}));
+  EXPECT_NEAR(*cell(table, "R1", "energy_start_J").value, 1000, 1e-9);
+  EXPECT_NEAR(*cell(table, "R1", "energy_end_percent").value, 99, 1e-9);
+  EXPECT_NEAR(*cell(table, "R1", "energy_rise_percent").value, 1, 1e-9);
+  EXPECT_NEAR(*cell(table, "R1", "density_ratio_max_1").value, 1.3, 1e-9);
+  EXPECT_NEAR(*cell(table, "R1", "density_ratio_max_later_1").value, 1.01, 1e-9);
+  EXPECT_EQ(cell(table, "R2", "energy_start_J").text, "missing");
+}
+
+TEST(ReportTables, ProcessorTimeIsTheCostAndWallTimeStandsIn) {
+  AnalysedRun run;
+  EXPECT_FALSE(processor_time_s(run));
+  run.record.manifest = {{"wall_time_s", 10.0}, {"threads", 2}};
+  EXPECT_EQ(processor_time_s(run), 20.0);
+  run.record.manifest["cpu_time_s"] = 15.0;
+  EXPECT_EQ(processor_time_s(run), 15.0);
+}
+
+TEST(ReportTables, AShortRunIsScoredOverWhatItCoversInATableOfItsOwn) {
+  const fs::path dir = fresh("short");
+  MadeRun run;
+  run.t_end_s = 5.0;
+  run.scale = 1.2;
+  synthetic::write_run(dir, run);
+  const Table table = early_runs_table(analyse({dir}));
+  EXPECT_NEAR(*cell(table, "R1", "up_to_s").value, 5.0, 1e-9);
+  EXPECT_NEAR(*cell(table, "R1", "P1_impulse_deviation_percent").value, 20, 0.1);
+  EXPECT_GT(*cell(table, "R1", "H2_rmse_over_range_percent").value, 1);
+  const fs::path whole = fresh("not_short");
+  synthetic::write_run(whole, {});
+  EXPECT_TRUE(early_runs_table(analyse({whole})).rows.empty());
+}
+
+TEST(ReportTables, PairsOfRunsThatDifferInTheirWallsAlone) {
+  const fs::path a = fresh("pair_a");
+  const fs::path b = fresh("pair_b");
+  const fs::path c = fresh("pair_c");
+  MadeRun run;
+  synthetic::write_run(a, run);
+  run.walls = "dynamic";
+  run.scale = 0.6;
+  synthetic::write_run(b, run);
+  run.alpha = 0.1;
+  synthetic::write_run(c, run);
+  const ReportData data = analyse({c, b, a});
+  EXPECT_EQ(data.runs[0].record.walls, "extrapolated") << "the report orders runs itself";
+  const Table table = boundary_models_table(data);
+  EXPECT_NEAR(*cell(table, "R1", "mean_unsigned_percent").value, 0, 0.1);
+  EXPECT_NEAR(*cell(table, "R3", "P2_percent", "dynamic").value, -40, 0.1);
+  for (const TableRow& row : table.rows) EXPECT_FALSE(row.cells[0].text.starts_with("R2")) << "α = 0.1 has no partner";
+  EXPECT_NEAR(*cell(table, "Paper", "P1_percent").value, -27.5, 0.1);
+}
+
+TEST(ReportTables, ThreeResolutionsGiveAnOrderOrTheWordsThatThereIsNone) {
+  std::vector<fs::path> dirs;
+  MadeRun run;
+  for (double l0 : {0.04, 0.02, 0.01}) {
+    dirs.push_back(fresh("resolution_" + std::to_string(dirs.size())));
+    run.l0_m = l0;
+    run.scale = 1 + 100 * l0 * l0;  // second order
+    synthetic::write_run(dirs.back(), run);
+  }
+  const Table table = resolution_table(analyse(dirs));
+  const std::string order = cell(table, "P1 impulse", "observed_order").text;
+  EXPECT_TRUE(order.starts_with("order 2.0")) << order;
+  EXPECT_NEAR(*cell(table, "P1 impulse", "l0_40_mm").value, 16, 0.1);
+  run.l0_m = 0.01;
+  run.scale = 1.3;  // finer is worse
+  synthetic::write_run(dirs.back(), run);
+  EXPECT_EQ(cell(resolution_table(analyse(dirs)), "P1 impulse", "observed_order").text, "not in the asymptotic range");
+}
+
+/// Half of the runs 20 % too high, half as much too low in the logarithm: no bias but that of the scatter itself.
+TEST(ReportTables, BiasAndScatterOfEachMethod) {
+  std::vector<fs::path> runs;
+  MadeRun made;
+  for (const double alpha : {0.1, 0.01, 0.001, 0.0001}) {
+    runs.push_back(fresh("bias_" + std::to_string(runs.size())));
+    made.alpha = alpha;
+    made.scale = runs.size() % 2 == 0 ? 1.2 : 1 / 1.2;
+    synthetic::write_run(runs.back(), made);
+  }
+  const Table table = bias_table(analyse(runs));
+  const double deviation = std::log(1.2) * std::sqrt(32.0 / 31.0);
+  EXPECT_EQ(*cell(table, "WCSPH", "pairs").value, 32);
+  EXPECT_NEAR(*cell(table, "WCSPH", "scatter_percent").value, 100 * deviation, 0.05);
+  EXPECT_NEAR(*cell(table, "WCSPH", "bias").value, std::exp(0.5 * deviation * deviation), 1e-3);
+  const Table best = best_alpha_table(analyse(runs));
+  EXPECT_EQ(*cell(best, "P1 impulse", "alpha").value, 0.001) << "16.7 % too low against 20 % too high";
+  EXPECT_NEAR(*cell(best, "P1 impulse", "error_percent").value, 100 * (1 - 1 / 1.2), 0.05);
+}
+
+TEST(ReportTables, AcceptanceNamesPassFailAndNotApplicable) {
+  const fs::path a = fresh("accept_a");
+  const fs::path b = fresh("accept_b");
+  const fs::path c = fresh("accept_c");
+  MadeRun made;
+  synthetic::write_run(a, made);
+  made.alpha = 0.001;
+  synthetic::write_run(b, made);
+  made.alpha = 0.01;
+  made.l0_m = 0.015;
+  made.scale = 1.3;
+  synthetic::write_run(c, made);
+  const Table table = acceptance_matrix(analyse({a, b, c}));
+  EXPECT_NE(cell(table, "impulse deviation P1 wall", "R1").text.find("pass"), std::string::npos);
+  EXPECT_EQ(cell(table, "impulse deviation P1 wall", "R2").text, "n/a") << "the row is for α = 0.01";
+  EXPECT_NE(cell(table, "impulse deviation P1 wall", "R3").text.find("FAIL"), std::string::npos);
+  EXPECT_NEAR(*cell(table, "impulse deviation P1 wall", "R3").value, 0.3, 1e-3);
+}
+
+}  // namespace
+}  // namespace sluice

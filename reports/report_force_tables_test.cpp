@@ -18,7 +18,6 @@ namespace fs = std::filesystem;
 using synthetic::MadeForceRun;
 
 using test_files::fresh;
-using test_files::read;
 
 const TableCell& cell(const Table& table, const std::string& start, const std::string& csv_name,
                       const std::string& second = "") {

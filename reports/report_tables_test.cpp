@@ -18,7 +18,6 @@ using synthetic::MadeRun;
 
 using test_files::cell;
 using test_files::fresh;
-using test_files::read;
 
 TEST(ReportTables, KnownScaleAndShiftGiveKnownNumbers) {
   const fs::path dir = fresh("known");

@@ -209,7 +209,7 @@ std::int64_t RowIndex::memory_bytes() const {
 Proximity::Proximity(const RowIndex& index) : geometry_(index.geometry()) {
   const RowGeometry& g = geometry_;
   near_.resize(static_cast<std::size_t>(g.rows()) * static_cast<std::size_t>(g.nx), 0);
-  const auto reach = static_cast<std::int32_t>(g.radius_m / g.slice_m) + 1;
+  const auto reach = static_cast<std::int32_t>((g.radius_m + g.slack_m) / g.slice_m) + 1;
   std::vector<std::uint8_t> in_reach(static_cast<std::size_t>(g.nx));
   for (std::int32_t row = 0; row < g.rows(); ++row) {
     // Slices that lie within reach of a particle of this row, then the rows around it.

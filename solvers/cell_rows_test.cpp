@@ -84,6 +84,36 @@ TEST(RowIndex, StillFindsThemAfterTheAllowedTravel) {
   }
 }
 
+/// As the pair sums do: every particle with those after it in its own row, and with those of the rows after it.
+TEST(RowIndex, ForwardRunsMeetEveryPairOnce) {
+  Cloud cloud(1500);
+  const double travel = 0.004;
+  RowIndex index({domain, 0.09, travel, 0.015});
+  index.sort(cloud.x, cloud.y, cloud.z, {}, 1);
+  cloud.follow(index.order());
+  const Cloud sorted = cloud;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> step(-travel / 1.8, travel / 1.8);
+  for (std::size_t i = 0; i < cloud.x.size(); ++i)
+    cloud.x[i] += step(random), cloud.y[i] += step(random), cloud.z[i] += step(random);
+  std::set<std::pair<std::size_t, std::size_t>> met;
+  const RowGeometry& g = index.geometry();
+  for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+    auto runs = index.forward(cloud.at(i), index.row_search(g.row_y(sorted.y[i]), g.row_z(sorted.z[i])), travel);
+    runs.front().begin = static_cast<std::int32_t>(i) + 1;
+    for (const sluice::Run& run : runs)
+      for (auto j = run.begin; j < run.end; ++j)
+        EXPECT_TRUE(met.insert(std::minmax(i, static_cast<std::size_t>(j))).second) << i << ' ' << j;
+  }
+  for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+    for (std::size_t j = i + 1; j < cloud.x.size(); ++j) {
+      const Vec3d d = cloud.at(j) - cloud.at(i);
+      const bool near = dot(d, d) < g.radius_m * g.radius_m;
+      EXPECT_TRUE(!near || met.contains({i, j})) << i << ' ' << j;
+    }
+  }
+}
+
 TEST(RowIndex, OrderIsTheSameForAnyNumberOfThreads) {
   const Cloud cloud(5000);
   RowIndex one({domain, 0.09, 0.004, 0.015});
@@ -117,6 +147,7 @@ TEST(Proximity, MissesNoPointThatHasAParticleInReach) {
   RowIndex index({domain, 0.09, 0.004, 0.015});
   index.sort(cloud.x, cloud.y, cloud.z, {}, 1);
   const Proximity proximity(index);
+  for (std::size_t j = 0; j < cloud.x.size(); ++j) cloud.x[j] += j % 2 == 0 ? 0.004 : -0.004;  // as far as it may
   const Cloud points(2000, 11);
   int far = 0;
   for (std::size_t i = 0; i < points.x.size(); ++i) {

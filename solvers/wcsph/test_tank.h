@@ -19,6 +19,16 @@ inline SceneDescription still_tank(double l0, double length, double width, doubl
   return d;
 }
 
+/// A dam break in a small tank with a box: every part of the solver at work. A `length` of 2 m has room for several
+/// blocks of the pair sums along x.
+inline Scene small_dam_break(WallModel walls, double length = 0.8) {
+  SceneDescription d = still_tank(0.04, length, 0.24, 0.4, 0.24, walls);
+  d.fluid[0].lower.x = length - 0.3;
+  if (length > 1) d.fluid[0].lower.x = 0.4;
+  d.obstacles = {{.box = {{0.2, 0.08, 0}, {0.28, 0.16, 0.08}}}};
+  return build_scene(d);
+}
+
 inline Parameters parameters_for(const SceneDescription& d, double depth, WallModel walls) {
   Parameters p;
   p.particle_distance_m = d.particle_distance_m;
@@ -27,6 +37,10 @@ inline Parameters parameters_for(const SceneDescription& d, double depth, WallMo
   p.speed_of_sound_m_s = 20 * std::sqrt(9.81 * depth);
   p.walls = walls;
   return p;
+}
+
+inline Parameters small_parameters(const Scene& scene, WallModel walls) {
+  return parameters_for(scene.description, 0.24, walls);
 }
 
 /// A scene with fluid particles at given places only, in a tank too large for its walls to be felt, without gravity.

@@ -13,14 +13,11 @@ namespace {
 template <class Pack>
 auto wall_continuity(const Target<Pack>& wall, const Particles<Pack>& fluid, const PackList<Pack>& packs,
                      const PairConstants<Pack>& c) {
-  using L = Lanes<Pack>;
   Pack sum(0);
   for (const PackOfRun& pack : packs) {
-    const auto j = static_cast<std::size_t>(pack.begin);
     const Pairs<Pack> p = pairs(wall.x, fluid, pack, c);
-    const Vec3<Pack> velocity{L::load(&fluid.velocity.x[j]), L::load(&fluid.velocity.y[j]),
-                              L::load(&fluid.velocity.z[j])};
-    sum += continuity_term(wendland_gradient_shape(p.taper), dot(velocity - wall.velocity, p.r));
+    const Neighbours<Pack> j(fluid, static_cast<std::size_t>(pack.begin));
+    sum += continuity_term(wendland_gradient_shape(p.taper), dot(j.velocity - wall.velocity, p.r));
   }
   return lane_sum(sum);
 }
@@ -29,19 +26,18 @@ auto wall_continuity(const Target<Pack>& wall, const Particles<Pack>& fluid, con
 template <class Pack>
 auto wall_pressure(const Target<Pack>& wall, const Particles<Pack>& fluid, const PackList<Pack>& packs,
                    const PairConstants<Pack>& c) {
-  using L = Lanes<Pack>;
   const Vec3<Pack> gravity{Pack(c.gravity_per_quantum.x), Pack(c.gravity_per_quantum.y), Pack(c.gravity_per_quantum.z)};
   Pack weights(0);
   Pack pressures(0);
   for (const PackOfRun& pack : packs) {
-    const auto j = static_cast<std::size_t>(pack.begin);
     const Pairs<Pack> p = pairs(wall.x, fluid, pack, c);
+    const Neighbours<Pack> j(fluid, static_cast<std::size_t>(pack.begin));
     const Pack W = wendland_weight(p.taper, c.weight_factor);
-    const Pack density = L::load(&fluid.density[j]) + Pack(c.reference_density);
+    const Pack density = j.density + Pack(c.reference_density);
     weights += W;
-    pressures += W * extrapolated_pressure(L::load(&fluid.pressure[j]), density, gravity, {-p.r.x, -p.r.y, -p.r.z});
+    pressures += W * extrapolated_pressure(j.pressure, density, gravity, {-p.r.x, -p.r.y, -p.r.z});
   }
-  using Real = typename L::Real;
+  using Real = typename Lanes<Pack>::Real;
   const Real weight = lane_sum(weights);
   return weight > 0 ? std::max(Real(0), lane_sum(pressures) / weight) : Real(0);
 }

@@ -19,6 +19,12 @@ void apply_equation_of_state(Particles<Pack>& p, std::size_t i, const PairConsta
   p.sound[i] = tait_speed_of_sound(p.density[i], c.tait);
 }
 
+/// The components in which `now` is not what it was, of `now`; the others of `before`. So the leap over a step at which
+/// a particle was held neither brings back what the wall took, nor counts twice what moves it along the wall.
+Vec3d with_changes(const Vec3d& before, const Vec3d& was, const Vec3d& now) {
+  return {now.x == was.x ? before.x : now.x, now.y == was.y ? before.y : now.y, now.z == was.z ? before.z : now.z};
+}
+
 }  // namespace
 
 /// One step of the paper's section 2.2. Derived state (order, pressures, walls) belongs to the time at which the step
@@ -49,10 +55,14 @@ StepLimits WcsphSolver<Pack>::sum_rates() {
 template <class Pack>
 void WcsphSolver<Pack>::advance(double dt_s) {
   const auto form = steps_ % parameters_.restart_interval == 0 ? VerletForm::restart : VerletForm::leap;
-  travel_m_ += advance_fluid(fluid_, dt_s, form, constants_.least_density, threads_);
+  const double moved_m = advance_fluid(fluid_, dt_s, form, constants_.least_density, threads_);
+  travel_m_ += moved_m;
   move_walls(dt_s);
   if (parameters_.walls == WallModel::dynamic) advance_wall_density(walls_, dt_s, form, threads_);
-  if (parameters_.walls == WallModel::extrapolated) hold_at_walls();
+  if (parameters_.walls == WallModel::extrapolated) {
+    // Who is set back on the way that it came has moved less; who falls from the rim behind a wall, more.
+    if (const double set_back_m = hold_at_walls(); set_back_m > moved_m) travel_m_ += set_back_m;
+  }
 }
 
 /// What a wall travels counts with what the fluid does: the search allows for how far the two move against each other.
@@ -65,24 +75,29 @@ void WcsphSolver<Pack>::move_walls(double dt_s) {
   wall_travel_m_ += moved_m;
 }
 
-/// Extrapolated pressures alone let a particle slip between wall particles now and then. Dynamic walls are left to
-/// leak, as the paper's do.
+/// Extrapolated pressures alone let particles slip between wall particles: in a thin film some of a thousand at every
+/// step. Dynamic walls are left to leak, as the paper's do. Returns how far the farthest was set back [m].
 template <class Pack>
-void WcsphSolver<Pack>::hold_at_walls() {
+double WcsphSolver<Pack>::hold_at_walls() {
   const auto n = static_cast<std::int64_t>(fluid_.n);
   std::int64_t held = 0;
-#pragma omp parallel for num_threads(threads_) schedule(static) reduction(+ : held)
+  double farthest2 = 0;
+#pragma omp parallel for num_threads(threads_) schedule(static) reduction(+ : held) reduction(max : farthest2)
   for (std::int64_t k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    Vec3d x = fluid_.position.template at<double>(i);
-    Vec3d u = fluid_.velocity.template at<double>(i);
-    if (!tank_.hold(x, u)) continue;
-    fluid_.position.set(i, x);
-    fluid_.velocity.set(i, u);
-    fluid_.velocity_previous.set(i, u);
+    const Vec3d at = fluid_.position.template at<double>(i);
+    const Vec3d u = fluid_.velocity.template at<double>(i);
+    Vec3d held_at = at;
+    Vec3d held_u = u;
+    if (!tank_.hold(held_at, held_u)) continue;
+    fluid_.position.set(i, held_at);
+    fluid_.velocity.set(i, held_u);
+    fluid_.velocity_previous.set(i, with_changes(fluid_.velocity_previous.template at<double>(i), u, held_u));
+    farthest2 = std::max(farthest2, dot(held_at - at, held_at - at));
     ++held;
   }
   held_ += held;
+  return std::sqrt(farthest2);
 }
 
 /// Sorts when particles have travelled as far as the search allows, or when one has left.

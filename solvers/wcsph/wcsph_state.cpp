@@ -33,13 +33,14 @@ void WcsphSolver<Pack>::visit_state(StateArchive& archive) {
   archive.value("lost_over_top", lost_.over_top);
   archive.value("lost_through_walls", lost_.through_walls);
   if (archive.restoring()) {
-    find_wet_walls();
+    find_wet_walls();  // as at the last sort, when moving walls stood where they are now
+    if (moving_walls_.any()) set_moving_walls(time_s_);
     update_fluid_state();
     update_walls();
   }
 }
 
-/// Walls that move come back into the order that they had.
+/// Walls that move come back into the order and to the place that they had at the last sort.
 template <class Pack>
 void WcsphSolver<Pack>::visit_moving_walls(StateArchive& archive) {
   if (!moving_walls_.any()) return;
@@ -49,7 +50,6 @@ void WcsphSolver<Pack>::visit_moving_walls(StateArchive& archive) {
   const double travel_m = wall_travel_m_;
   set_moving_walls(walls_sorted_at_s_);
   sort_walls();
-  set_moving_walls(time_s_);
   wall_travel_m_ = travel_m;
 }
 

@@ -23,10 +23,13 @@ struct DirectSolver::Factor {
   Factor() {
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SIMPLICIAL;
+    common.final_ll = 1;  // L L^T: the other form, L D L^T, takes negative pivots
     common.print = 0;
   }
   Factor(const Factor&) = delete;
   Factor& operator=(const Factor&) = delete;
+  template <class Real>
+  void take_upper_triangle(const PressureMatrix<Real>& A);
   ~Factor() {
     cholmod_free_factor(&factor, &common);
     for (cholmod_dense** d : {&right_side, &solution, &work_y, &work_e}) cholmod_free_dense(d, &common);
@@ -37,33 +40,38 @@ struct DirectSolver::Factor {
 DirectSolver::DirectSolver() : factor_(std::make_unique<Factor>()) {}
 DirectSolver::~DirectSolver() = default;
 
+/// A column an unknown.
 template <class Real>
-void DirectSolver::factorise(const PressureMatrix<Real>& A) {
-  Factor& f = *factor_;
-  f.row_of.assign(A.end, -1);
-  f.unknowns = 0;
+void DirectSolver::Factor::take_upper_triangle(const PressureMatrix<Real>& A) {
+  row_of.assign(A.end, -1);
+  unknowns = 0;
   for (std::size_t i = A.begin; i < A.end; ++i)
-    if (A.has_row[i] != 0) f.row_of[i] = static_cast<std::int32_t>(f.unknowns++);
-  f.column_start.assign(1, 0);
-  f.row_index.clear();
-  f.value.clear();
-  // The upper triangle, a column an unknown.
+    if (A.has_row[i] != 0) row_of[i] = static_cast<std::int32_t>(unknowns++);
+  column_start.assign(1, 0);
+  row_index.clear();
+  value.clear();
   for (std::size_t i = A.begin; i < A.end; ++i) {
-    if (f.row_of[i] < 0) continue;
-    f.row_index.push_back(f.row_of[i]);
-    f.value.push_back(static_cast<double>(A.diagonal[i]));
+    if (row_of[i] < 0) continue;
+    row_index.push_back(row_of[i]);
+    value.push_back(static_cast<double>(A.diagonal[i]));
     const auto add = [&](const Entries<Real>& entries) {
       for (std::uint32_t k = entries.rows[i].begin; k < entries.rows[i].end; ++k) {
-        const std::int32_t row = f.row_of[static_cast<std::size_t>(entries.columns[k])];
-        if (row < 0 || row >= f.row_of[i]) continue;
-        f.row_index.push_back(row);
-        f.value.push_back(-static_cast<double>(entries.weights[k]));
+        const std::int32_t row = row_of[static_cast<std::size_t>(entries.columns[k])];
+        if (row < 0 || row >= row_of[i]) continue;
+        row_index.push_back(row);
+        value.push_back(-static_cast<double>(entries.weights[k]));
       }
     };
     add(A.near);
     if (A.has_far()) add(A.far);
-    f.column_start.push_back(static_cast<int>(f.row_index.size()));
+    column_start.push_back(static_cast<int>(row_index.size()));
   }
+}
+
+template <class Real>
+void DirectSolver::factorise(const PressureMatrix<Real>& A) {
+  Factor& f = *factor_;
+  f.take_upper_triangle(A);
   if (f.unknowns == 0) return;
   cholmod_sparse m{};
   m.nrow = m.ncol = f.unknowns;

@@ -14,7 +14,7 @@
 namespace sluice::mps {
 namespace {
 
-/// Calls visit(j, distance) for every particle of a set within the list's radius of a point.
+/// Calls visit(j, distance) for every particle of a set within the list's radius of a point, and for some beyond it.
 template <class Pack, class Visit>
 void for_each_near(const Particles<Pack>& p, const SearchSet& set, const Vec3d& point, double travel_m, Visit&& visit) {
   for (const Run& run : set.index.neighbours(point, travel_m)) {

@@ -41,7 +41,7 @@ double list_radius_m(const Parameters& p) {
   return p.effective_radius_m() + 2 * slack_over_distance * p.particle_distance_m;
 }
 
-/// Of the 44 neighbours of a full lattice 18 are near, with six sevenths of the weight.
+/// Of the 32 neighbours of a full lattice 18 are near, with six sevenths of the weight.
 double near_radius_m(const Parameters& p) {
   return std::min(p.effective_radius_m(), std::max(1.7 * p.particle_distance_m, collision_reach_m(p)));
 }

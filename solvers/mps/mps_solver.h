@@ -45,8 +45,8 @@ class MpsSolver final : public Solver {
   VelocityReading kernel_velocity(const Vec3d& point_m) const override;
   Vec3d wall_reaction_N(std::span<const std::int32_t> walls, const Box& fluid_within_m) const override;
   double wall_particle_pressure_Pa(std::int32_t wall) const override;
-  /// Walls act where their particles are, and the free surface (P = 0) lies where its particles are: the pressure at
-  /// the bottom of n layers is that of n l0, and so is their depth.
+  /// Walls act where their particles are, and the free surface (P = 0) lies where its particles are: by that, the
+  /// pressure at the bottom of n layers is that of n l0, and so is their depth (measured: of some 0.4 l0 less).
   double wall_setback_m() const override { return 0.5 * constants_.parameters.particle_distance_m; }
   double volume_fraction(const Vec3d& point_m) const override;
   double smoothing_length_m() const override { return 0.5 * constants_.parameters.effective_radius_m(); }
@@ -60,7 +60,6 @@ class MpsSolver final : public Solver {
   const NeighbourList<Pack>& neighbours() const { return list_; }
   const PressureEquation<Pack>& pressure_equation() const { return pressure_equation_; }
   const Parameters& parameters() const { return constants_.parameters; }
-  const LatticeConstants& lattice() const { return constants_.lattice; }
   // What the operators of a step are given.
   const OperatorConstants& constants() const { return constants_; }
   const Reach& reach() const { return reach_; }

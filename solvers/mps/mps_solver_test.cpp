@@ -98,6 +98,33 @@ TEST(MpsSolver, MultigridNeedsFewIterations) {
   EXPECT_LE(solver.facts().at("iterations_max"), 20);
 }
 
+/// Large enough for levels of levels, whose cycle is a recursion.
+TEST(MpsSolver, MultigridOfManyLevelsNeedsFewIterationsAndIsTheSameOnAnyNumberOfThreads) {
+  const Scene scene = tank_with_block(0.02, {0.8, 0.4, 0.4}, {0.4, 0.4, 0.3});
+  MpsSolver<FloatPack> one(scene, parameters_for(0.02, 5), 1);
+  MpsSolver<FloatPack> two(scene, parameters_for(0.02, 5), 2);
+  run(one, 20);
+  run(two, 20);
+  EXPECT_GE(one.facts().at("multigrid_levels"), 3);
+  EXPECT_LE(one.facts().at("iterations_max"), 20);
+  EXPECT_EQ(one.particles().pressure, two.particles().pressure);
+}
+
+TEST(DirectSolver, RefusesAMatrixThatIsNotPositiveDefinite) {
+  const std::vector<Span> rows{{0, 1}, {2, 3}};
+  const std::vector<std::int32_t> columns{1, 0, 0, 0};
+  const std::vector<double> weights{2, 0, 2, 0};
+  const std::vector<double> diagonal{1, 1};  // with 2 beside it: eigenvalues 3 and -1
+  const std::vector<std::uint8_t> has_row{1, 1};
+  PressureMatrix<double> A;
+  A.near = {rows, columns.data(), weights.data()};
+  A.diagonal = diagonal;
+  A.has_row = has_row;
+  A.end = 2;
+  DirectSolver solver;
+  EXPECT_THROW(solver.factorise(A), std::runtime_error);
+}
+
 TEST(MpsSolver, ReportsASystemThatDoesNotConverge) {
   Parameters p = parameters_for(0.04, 5);
   p.preconditioner = Preconditioner::jacobi;

@@ -172,8 +172,8 @@ double kinetic_energy_per_mass(const Particles<FloatPack>& p) {
 }
 
 /// Twenty particles deep. The bottom's pressure rings with the source term's own period of about 63 steps; means over
-/// half a second say what it is and whether it drifts. It lies below rho g depth by what 0.4 l0 of water weigh, since P
-/// = 0 holds at the centres of the uppermost particles: 2 % here, 4 % with ten particles.
+/// half a second say what it is and whether it drifts. It is measured to lie below rho g depth by what 0.4 l0 of water
+/// weigh: 2 % here, 4 % with ten particles. Where the rest goes is not known: wall and surface are n l0 apart.
 TEST(MpsVerification, HydrostaticTankForFiveSeconds) {
   const double l0 = 0.02;
   const double depth = 20 * l0;

@@ -10,7 +10,8 @@
 namespace sluice::mps {
 namespace {
 
-// Entries of the two rows in a full lattice, rounded up to whole units, and a few more.
+// Entries of the two rows for which room is made at first: a full lattice has 18 near and 14 far, disordered fluid
+// more.
 constexpr std::size_t expected_near = 23;
 constexpr std::size_t expected_far = 30;
 

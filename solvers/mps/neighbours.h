@@ -18,9 +18,9 @@ struct SearchSet {
   const Proximity* proximity = nullptr;  ///< of sets that are sorted as often as they move: walls and dummies
 };
 
-/// Distances of the weight in quanta of the coordinates.
+/// The search's distances.
 struct Reach {
-  double quantum_m = 0;
+  double quantum_m = 0;  ///< of the coordinates, in which pair distances are
   double effective_radius_m = 0;
   double list_radius_m = 0;  ///< what is listed: a little more, so that the list outlives a small displacement
   double near_radius_m = 0;  ///< of the near neighbours, no more than the effective radius

@@ -38,12 +38,12 @@ class PressureEquation {
   /// guess. Negative ones become zero. Throws NotConverged.
   PressureReport solve(Particles<Pack>& particles, const NeighbourList<Pack>& list);
 
-  /// The system of the last call, and its right-hand side.
+  /// The system of the last call, and its right-hand side: a view of the list that it was made of, until neighbours are
+  /// listed anew.
   const PressureMatrix<Real>& matrix() const { return matrix_; }
   const std::vector<double>& right_side() const { return right_side_; }
   const std::vector<double>& history() const { return conjugate_gradients_.history(); }
   int levels() const { return multigrid_.levels(); }
-  bool at_surface(std::size_t i) const { return has_row_[i] == 0; }
   std::int64_t memory_bytes() const;
 
   /// Sets the system up without solving it.

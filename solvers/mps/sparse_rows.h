@@ -46,7 +46,6 @@ class SparseRows {
   const std::vector<Span>& spans() const { return spans_; }
   const std::int32_t* columns() const { return columns_.data(); }
   const Real* values() const { return values_.data(); }
-  std::size_t rows() const { return spans_.size(); }
   std::int64_t memory_bytes() const { return bytes(spans_) + bytes(columns_) + bytes(values_); }
 
   /// Hands out room for rows to one thread.

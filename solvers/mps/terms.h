@@ -1,6 +1,7 @@
 // The terms of the MPS operators, one function a term. i is the particle, j its neighbour, r = r_ij = r_j - r_i as in
 // the paper. What is the same for all neighbours (dim / n0, 2 dim / (lambda0 n0)) is left to a sum's end. Real is
-// double, or a pack of single precision. Lengths are in metres.
+// double, or a pack of single precision. Lengths are in one unit throughout: metres in the reference, quanta of the
+// coordinates in the fast path, whose sums take metres a quantum as a factor at their end. Units are given for metres.
 #pragma once
 
 #include "solvers/lanes.h"

@@ -1,5 +1,7 @@
-// The loops over pairs. Each gathers its sums over the neighbours of one particle in a fixed order and writes once, so
-// results do not depend on the number of threads.
+// The loops over pairs. Fluid pairs are visited once and written to both sides, block by block in colours, so that
+// every particle receives its terms in one order; the others are gathered for one particle in a fixed order and written
+// once. So results do not depend on the number of threads. (The design would gather them all; a pair that is visited
+// once costs less.)
 #pragma once
 
 #include "solvers/cell_rows.h"

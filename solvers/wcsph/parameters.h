@@ -1,4 +1,5 @@
-// The parameters of the WCSPH solver, with the paper's values as defaults, but for the restart interval and the walls.
+// The parameters of the WCSPH solver, with the paper's values as defaults, but for the restart interval, the limit of
+// tension and the walls.
 #pragma once
 
 #include <string>

@@ -22,7 +22,8 @@ auto wall_continuity(const Target<Pack>& wall, const Particles<Pack>& fluid, con
   return lane_sum(sum);
 }
 
-/// Kernel mean of the pressure that the fluid hands to one wall particle, not below zero   [Pa]
+/// Kernel mean of the pressure that the fluid hands to one wall particle, not below zero   [Pa]. Walls move at constant
+/// velocity: their own acceleration is left out.
 template <class Pack>
 auto wall_pressure(const Target<Pack>& wall, const Particles<Pack>& fluid, const PackList<Pack>& packs,
                    const PairConstants<Pack>& c) {

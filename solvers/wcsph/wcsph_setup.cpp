@@ -179,9 +179,4 @@ std::unique_ptr<Solver> make_wcsph_solver(const Scene& scene, const wcsph::Param
   return std::make_unique<wcsph::WcsphSolver<FloatPack>>(scene, parameters, threads);
 }
 
-std::unique_ptr<Solver> make_reference_wcsph_solver(const Scene& scene, const wcsph::Parameters& parameters,
-                                                    int threads) {
-  return std::make_unique<wcsph::WcsphSolver<double>>(scene, parameters, threads);
-}
-
 }  // namespace sluice

@@ -117,8 +117,4 @@ namespace sluice {
 /// The fast path.
 std::unique_ptr<Solver> make_wcsph_solver(const Scene& scene, const wcsph::Parameters& parameters, int threads);
 
-/// The reference path: scalar, double precision.
-std::unique_ptr<Solver> make_reference_wcsph_solver(const Scene& scene, const wcsph::Parameters& parameters,
-                                                    int threads);
-
 }  // namespace sluice

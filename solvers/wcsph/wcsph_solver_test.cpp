@@ -161,7 +161,7 @@ TEST_P(Walls, ResultsAreBitwiseEqualForAnyNumberOfThreads) {
   WcsphSolver<FloatPack> one(scene, p, 1);
   WcsphSolver<FloatPack> two(scene, p, 2);
   WcsphSolver<FloatPack> four(scene, p, 4);
-  while (one.time_s() < 0.25) {
+  while (one.time_s() < 0.12) {
     one.step();
     two.step();
     four.step();

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "validation/printable.h"
+
 namespace sluice::ci {
 namespace {
 
@@ -16,12 +18,6 @@ struct Group {
   std::vector<std::pair<const SeriesFindings*, const Finding*>> findings;
 };
 using GroupKey = std::tuple<std::string, std::string, std::string>;  // date, commit, kind of run
-
-std::string upper(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return out;
-}
 
 std::string day(const Result& result) {
   return result.date.substr(0, 10);
@@ -115,8 +111,8 @@ std::string detail_text(const SeriesFindings& found, const Finding& finding) {
 std::string finding_text(const SeriesFindings& found, const Finding& finding) {
   const MetricSeries& series = found.series;
   const std::string now = finding.verdict == Verdict::missing ? "no value" : value_text(series, finding.shift.after);
-  return fmt::format("{:<8} {}: {} to {} ({}){}  series {}", upper(to_string(finding.verdict)), series.key.quantity(),
-                     value_text(series, finding.shift.before), now, detail_text(found, finding),
+  return fmt::format("{:<8} {}: {} to {} ({}){}  series {}", in_capitals(to_string(finding.verdict)),
+                     series.key.quantity(), value_text(series, finding.shift.before), now, detail_text(found, finding),
                      finding.state == State::open ? "" : fmt::format(" [{}]", to_string(finding.state)),
                      series.key.id());
 }

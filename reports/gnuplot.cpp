@@ -8,23 +8,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "validation/printable.h"
+
 namespace sluice {
 
-namespace {
-
-std::string shell_quoted(const std::string& text) {
-  std::string out(1, '\'');
-  for (char c : text) {
-    if (c == '\'')
-      out.append("'\\''");
-    else
-      out.push_back(c);
-  }
-  out.push_back('\'');
-  return out;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void run_gnuplot(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& scripts) {
   std::string command = fmt::format("cd {} && gnuplot", shell_quoted(folder.string()));

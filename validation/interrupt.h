@@ -5,8 +5,12 @@
 
 namespace sluice {
 
-/// While alive, the first SIGINT or SIGTERM is only remembered; a second one of the same kind ends the process at once.
-/// At most one at a time.
+/// Signals of one kind that come within this time are one request: a service manager tells every process of a job, and
+/// `timeout`, told too, tells its child again.
+constexpr double same_request_s = 1;
+
+/// While alive, the first SIGINT or SIGTERM is only remembered; one of the same kind that comes more than
+/// same_request_s after it ends the process at once. At most one at a time.
 class InterruptGuard {
  public:
   InterruptGuard();

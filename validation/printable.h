@@ -11,4 +11,10 @@ namespace sluice {
 /// longer than `most` bytes is cut at a whole character and ends in "...".
 std::string printable(std::string_view text, std::size_t most = 200);
 
+/// One word of a shell's command line, whatever stands in it.
+std::string shell_quoted(std::string_view text);
+
+/// Letters of ASCII in capitals: "wcsph" is an abbreviation.
+std::string in_capitals(std::string_view text);
+
 }  // namespace sluice

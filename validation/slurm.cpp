@@ -93,7 +93,7 @@ std::string campaign_command(const SlurmJob& job) {
 }
 
 /// The program runs beside the shell, which alone hears of the time limit (USR1). SIGTERM, from who cancels or requeues
-/// the task, comes to both; the program must get it once only, since a second one ends it without a checkpoint.
+/// the task, comes to both; the program must not get it again later, since that ends it without a checkpoint.
 constexpr const char* task_begin = R"(
 sluice=
 at_limit=
@@ -121,12 +121,6 @@ exit "$code"
 )";
 
 }  // namespace
-
-std::string shell_quoted(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 SlurmOptions parse_slurm(TomlReader reader) {
   SlurmOptions slurm;

@@ -62,7 +62,4 @@ std::string slurm_runs_script(const SlurmJob& job);
 /// The script of the job that makes the report when all tasks have ended.
 std::string slurm_report_script(const SlurmJob& job);
 
-/// In single quotes for a shell.
-std::string shell_quoted(std::string_view text);
-
 }  // namespace sluice

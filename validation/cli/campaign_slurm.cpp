@@ -11,6 +11,7 @@
 #include <string>
 
 #include "validation/plan.h"
+#include "validation/printable.h"
 #include "validation/slurm.h"
 
 namespace sluice::cli {

@@ -157,21 +157,38 @@ ProbeTable read_file(TextTableReader& reader, const ForeignFile& f, std::int64_t
   return {f.file, std::move(targets), std::move(times), std::move(values)};
 }
 
-/// Rows first .. last - 1 of the first table, and the others' series at their times.
-ProbeTable joined(const ForeignMap& map, std::vector<ProbeTable> tables) {
-  if (tables.size() == 1) return std::move(tables.front());
-  double begin_s = tables.front().times_s().front();
-  double end_s = tables.front().times_s().back();
-  for (const ProbeTable& t : tables) {
-    begin_s = std::max(begin_s, t.times_s().front());
-    end_s = std::min(end_s, t.times_s().back());
-  }
+/// All times of the tables within a window, sorted; of times that would be written alike, one.
+std::vector<double> all_times(const std::vector<ProbeTable>& tables, Window window) {
+  constexpr double written_alike = 1e-8;  // run directories keep nine digits
   std::vector<double> times;
-  for (const double t : tables.front().times_s())
-    if (t >= begin_s && t <= end_s) times.push_back(t);
+  for (const ProbeTable& t : tables)
+    for (const double time_s : t.times_s())
+      if (time_s >= window.begin_s && time_s <= window.end_s) times.push_back(time_s);
+  std::sort(times.begin(), times.end());
+  const auto alike = [](double a, double b) { return b - a <= written_alike * std::max(std::abs(a), std::abs(b)); };
+  times.erase(std::unique(times.begin(), times.end(), alike), times.end());
+  return times;
+}
+
+/// The series of all tables at all their times, over what all of them cover: no sample of any is lost.
+ProbeTable joined(const ForeignMap& map, std::vector<ProbeTable> tables, std::vector<std::string>& warnings) {
+  if (tables.size() == 1) return std::move(tables.front());
+  Window all{tables.front().times_s().front(), tables.front().times_s().back()};
+  Window shared = all;
+  for (const ProbeTable& t : tables) {
+    all = {std::min(all.begin_s, t.times_s().front()), std::max(all.end_s, t.times_s().back())};
+    shared = {std::max(shared.begin_s, t.times_s().front()), std::min(shared.end_s, t.times_s().back())};
+  }
+  const std::vector<double> times = all_times(tables, shared);
   if (times.empty())
     throw std::runtime_error(fmt::format(
         "{}: its files have no time in common (are the units and offsets of time right?)", map.map.string()));
+  if (shared.begin_s > all.begin_s || shared.end_s < all.end_s)
+    warnings.push_back(
+        fmt::format("its files cover {:.6g} to {:.6g} s together, all of them only {:.6g} to {:.6g} s, which was taken "
+                    "(a map of its "
+                    "own for each keeps all)",
+                    all.begin_s, all.end_s, shared.begin_s, shared.end_s));
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;
   for (const ProbeTable& t : tables) {
@@ -213,15 +230,18 @@ ForeignMap parse_foreign_map(std::string_view text, const fs::path& map) {
   return foreign;
 }
 
-ProbeTable read_foreign(const ForeignMap& map, std::int64_t* skipped) {
+ProbeTable read_foreign(const ForeignMap& map, std::vector<std::string>* warnings) {
   std::vector<ProbeTable> tables;
+  std::vector<std::string> noted;
   std::int64_t left_out = 0;
   for (const ForeignFile& f : map.files) {
     TextTableReader reader(f.file);
     tables.push_back(read_file(reader, f, left_out));
   }
-  if (skipped != nullptr) *skipped = left_out;
-  return joined(map, std::move(tables));
+  if (left_out > 0) noted.push_back(fmt::format("{} incomplete rows of its files were left out", left_out));
+  ProbeTable table = joined(map, std::move(tables), noted);
+  if (warnings != nullptr) *warnings = std::move(noted);
+  return table;
 }
 
 ProbeTable parse_foreign(const ForeignMap& map, std::span<const std::string_view> texts) {
@@ -229,16 +249,17 @@ ProbeTable parse_foreign(const ForeignMap& map, std::span<const std::string_view
     throw std::invalid_argument(fmt::format("{} texts for {} files", texts.size(), map.files.size()));
   std::vector<ProbeTable> tables;
   std::int64_t left_out = 0;
+  std::vector<std::string> ignored;
   for (std::size_t k = 0; k < texts.size(); ++k) {
     TextTableReader reader(map.files[k].file, texts[k]);
     tables.push_back(read_file(reader, map.files[k], left_out));
   }
-  return joined(map, std::move(tables));
+  return joined(map, std::move(tables), ignored);
 }
 
 void import_foreign(const ForeignMap& map, const fs::path& directory) {
-  std::int64_t skipped = 0;
-  const ProbeTable table = read_foreign(map, &skipped);
+  std::vector<std::string> warnings;
+  const ProbeTable table = read_foreign(map, &warnings);
   std::error_code error;
   fs::create_directories(directory, error);
   if (error)
@@ -249,8 +270,6 @@ void import_foreign(const ForeignMap& map, const fs::path& directory) {
   nlohmann::json sources = nlohmann::json::array();
   for (const ForeignFile& f : map.files)
     sources.push_back({{"file", f.file.filename().string()}, {"hash", file_hash(f.file)}});
-  nlohmann::json warnings = nlohmann::json::array();
-  if (skipped > 0) warnings.push_back(fmt::format("{} incomplete rows of its files were left out", skipped));
   nlohmann::json manifest{{"case", map.case_name},    {"solver", map.solver}, {"l0_m", map.l0_m},
                           {"imported_from", sources}, {"warnings", warnings}, {"map_hash", file_hash(map.map)}};
   if (!map.case_file.empty()) manifest["case_file"] = map.case_file;

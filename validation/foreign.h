@@ -60,9 +60,10 @@ ForeignMap load_foreign_map(const std::filesystem::path& map);
 /// The same from text; `map` is what messages call it, and its folder that of the files.
 ForeignMap parse_foreign_map(std::string_view text, const std::filesystem::path& map);
 
-/// Reads the files into one table; `skipped` counts rows that were left out as incomplete. Throws std::runtime_error
-/// `file:line: message`: no such file or column, not a number, times that do not increase, rows of another length.
-ProbeTable read_foreign(const ForeignMap& map, std::int64_t* skipped = nullptr);
+/// Reads the files into one table: every time of every file within what all of them cover. `warnings` says what was
+/// left out. Throws std::runtime_error `file:line: message`: no such file or column, not a number, times that do not
+/// increase, rows of another length.
+ProbeTable read_foreign(const ForeignMap& map, std::vector<std::string>* warnings = nullptr);
 
 /// The same with `texts`, one for each of the map's files, in their place.
 ProbeTable parse_foreign(const ForeignMap& map, std::span<const std::string_view> texts);

@@ -118,7 +118,7 @@ columns = [ { sensor = "P2", column = "3", unit = "hPa" } ]
   EXPECT_THAT(t.values("P2_Pa"), ElementsAre(100, 200));
 }
 
-TEST_F(ForeignTest, SeveralFilesMeetAtTheTimesOfTheFirst) {
+TEST_F(ForeignTest, SeveralFilesMeetAtAllTheirTimes) {
   write("a.csv", "t,p\n0,1\n1,2\n2,3\n3,4\n");
   write("b.csv", "t,h\n0.5,10\n2.5,30\n");
   const ProbeTable t = read(R"([[files]]
@@ -130,9 +130,30 @@ file = "b.csv"
 time = { column = "t", unit = "s" }
 columns = [ { sensor = "H1", column = "h", unit = "mm" } ]
 )");
-  EXPECT_THAT(t.times_s(), ElementsAre(1, 2));
-  EXPECT_THAT(t.values("P1_Pa"), ElementsAre(2, 3));
-  EXPECT_NEAR(t.values("H1_m")[0], 0.015, 1e-12);
+  EXPECT_THAT(t.times_s(), ElementsAre(0.5, 1, 2, 2.5));
+  EXPECT_THAT(t.values("P1_Pa"), ElementsAre(1.5, 2, 3, 3.5));
+  EXPECT_NEAR(t.values("H1_m")[1], 0.015, 1e-12);
+  std::vector<std::string> warnings;
+  read_foreign(load_foreign_map(directory / "m.toml"), &warnings);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("cover 0 to 3 s together, all of them only 0.5 to 2.5 s")));
+}
+
+// Coarse wave gauges first, a fine pressure second: the peak between two rows of the first is not lost.
+TEST_F(ForeignTest, NoSampleOfAFinerFileIsLost) {
+  write("a.csv", "t,h\n0,10\n50,20\n100,30\n");
+  write("b.csv", "t,p\n0,0\n0.02,0\n0.021,9000\n0.022,0\n0.05,0\n0.1,0\n");
+  const ProbeTable t = read(R"([[files]]
+file = "a.csv"
+time = { column = "t", unit = "ms" }
+columns = [ { sensor = "H1", column = "h", unit = "mm" } ]
+[[files]]
+file = "b.csv"
+time = { column = "t", unit = "s" }
+columns = [ { sensor = "P1", column = "p", unit = "Pa" } ]
+)");
+  EXPECT_EQ(t.rows(), 6U) << "0.05 s and 50 ms are one time";
+  EXPECT_EQ(t.values("P1_Pa")[2], 9000);
+  EXPECT_NEAR(t.values("H1_m")[2], 0.0142, 1e-12);
 }
 
 TEST_F(ForeignTest, BadFilesAreRefusedByLine) {
@@ -271,11 +292,11 @@ TEST_F(ForeignTest, TheVolumeOfFluidSeriesIsReadRowByRow) {
   EXPECT_EQ(file_hash(raw), "fnv1a64:2848ab176d2eca1c");
   ForeignMap map = load_foreign_map("data/vof_kleefsman/interfoam.toml");
   map.files.at(0).file = raw;
-  std::int64_t skipped = 0;
-  const ProbeTable whole = read_foreign(map, &skipped);
+  std::vector<std::string> warnings;
+  const ProbeTable whole = read_foreign(map, &warnings);
   EXPECT_THAT(whole.names(), ElementsAre("P1_Pa", "H2_m", "H4_m"));
   ASSERT_EQ(whole.rows(), 557u);
-  EXPECT_EQ(skipped, 0);
+  EXPECT_TRUE(warnings.empty());
   EXPECT_EQ(whole.times_s().front(), 0.0089);
   EXPECT_EQ(whole.times_s().back(), 5.9957);
   EXPECT_EQ(whole.times_s()[29], 0.4411);  // line 31 of the file

@@ -139,6 +139,21 @@ std::string accepted_name(const AcceptanceRow& row, const AnalysedRun& run) {
   return row.window ? fmt::format("{} {}", name, window_text(*row.window)) : name;
 }
 
+/// Sensors of which a run of our own has no primary reading: its metrics are missing under the name that they always
+/// had.
+void add_unread_sensors(Collector& collector, const ReportData& data, const AnalysedRun& run) {
+  const Case& c = data.the_case;
+  const SolverOption* solver = c.find_solver(run.record.solver);
+  if (!run.record.own || solver == nullptr || find_walls(*solver, run.record.walls) == nullptr) return;
+  for (const CaseSensor& sensor : c.sensors) {
+    if (run.primary(sensor.name) != nullptr || data.measured_series(sensor.name) == nullptr) continue;
+    if (!owes(run.record, c, window_end_s(c, sensor.name))) continue;
+    const std::string name = reading_name(sensor.name, primary_model(c, sensor, run.record.solver, run.record.walls));
+    for (const std::string_view metric : tracked_metrics(sensor.kind))
+      collector.add(metric, name, std::nullopt, unit_of_metric(metric), "probes.csv has no such column");
+  }
+}
+
 void add_accuracy(Collector& collector, const ReportData& data, const AnalysedRun& run) {
   const auto mean_error = mean_impulse_error(data, run);
   if (!data.headline_sensors().empty() && (mean_error || owes(run.record, data.the_case, data.window.end_s)))
@@ -154,6 +169,7 @@ void add_accuracy(Collector& collector, const ReportData& data, const AnalysedRu
                       remarks.empty() ? "" : remarks.front());
     }
   }
+  add_unread_sensors(collector, data, run);
   for (const AcceptanceCheck& check : run.acceptance) {
     const AcceptanceRow& row = check.row;
     if (check.verdict == AcceptanceVerdict::not_applicable) continue;

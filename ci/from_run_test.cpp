@@ -155,6 +155,33 @@ TEST_F(FromRunTest, AFailedRunIsNotFinishedAndNothingElse) {
   EXPECT_EQ(results[0].value, 0);
 }
 
+TEST_F(FromRunTest, ARunThatFailedBeforeItBeganIsNotFinishedEither) {
+  write({.status = "failed"});
+  fs::remove(directory / "probes.csv");
+  const auto results = results_of_run(directory);
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0].value, 0);
+}
+
+TEST_F(FromRunTest, ASensorThatIsNoLongerReadIsMissingUnderItsName) {
+  write();
+  const RunRecord run = read_run(directory);
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+  for (const std::string& name : run.probes.names()) {
+    if (name.starts_with("H2_")) continue;
+    names.push_back(name);
+    columns.push_back(run.probes.values(name));
+  }
+  write_probes(directory / "probes.csv", {directory, names, run.probes.times_s(), columns});
+  const auto results = results_of_run(directory);
+  const Result* lost = find(results, "rmse_over_range", "H2 column");
+  ASSERT_NE(lost, nullptr);
+  EXPECT_FALSE(lost->value);
+  EXPECT_THAT(lost->reason, HasSubstr("no such column"));
+  EXPECT_TRUE(find(results, "rmse_over_range", "H4 column")->value);
+}
+
 TEST_F(FromRunTest, ErrorsSayWhatIsMissingAndTheRemedy) {
   EXPECT_THAT(error(), HasSubstr("no such run directory"));
   write({.status = "running"});

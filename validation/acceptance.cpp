@@ -67,19 +67,18 @@ class Comparisons {
 };
 
 // A run that stopped early proves nothing, however good its counts look.
-std::string why_unfinished(const Case& c, const RunRecord& run, Window window) {
+std::string why_unfinished(const RunRecord& run, Window window) {
   if (const std::string status = run.status(); !status.empty() && status != "finished") return "the run is " + status;
-  const double reached_s = run.probes.rows() == 0 ? 0 : run.probes.times_s().back();
-  if (reached_s + 2 / c.output_rate_Hz < window.end_s)
-    return fmt::format("the run ends at {:.3g} s, the window at {:g} s", reached_s, window.end_s);
-  return "";
+  const std::vector<double>& times_s = run.probes.times_s();
+  const std::string remark = coverage_remark({times_s, times_s}, window);
+  return remark.empty() ? "" : "the run " + remark;
 }
 
 AcceptanceCheck check_row(const Case& c, const AcceptanceRow& row, const RunRecord& run, Comparisons& comparisons) {
   AcceptanceCheck check{row, AcceptanceVerdict::not_applicable, std::nullopt, ""};
   if (!applies(row, run)) return check;
   check.verdict = AcceptanceVerdict::missing;
-  check.reason = why_unfinished(c, run, window_of(c, row));
+  check.reason = why_unfinished(run, window_of(c, row));
   if (!check.reason.empty()) return check;
   if (metric_of(row.metric).needs_sensor) {
     if (const Comparison* comparison = comparisons.find(row, check.reason)) {

@@ -221,7 +221,7 @@ TEST_F(AcceptanceTest, ARunThatStoppedEarlyDoesNotPass) {
   EXPECT_EQ(check(row, {{"status", "failed"}}).verdict, AcceptanceVerdict::missing);
   write_run(1.0, 0, 0.5);
   EXPECT_EQ(check(row).verdict, AcceptanceVerdict::missing);
-  EXPECT_THAT(check(row).reason, HasSubstr("0.5 s"));
+  EXPECT_THAT(check(row).reason, HasSubstr("covers 0.50 s of a window that ends at 1.00 s"));
 }
 
 TEST_F(AcceptanceTest, AllPassedNeedsAtLeastOneRow) {

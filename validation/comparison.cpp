@@ -67,12 +67,6 @@ void add_lag(Comparison& result, const Series& simulated, const MeasuredSeries& 
   }
 }
 
-std::string coverage_remark(const Series& simulated, Window window) {
-  if (simulated.t_s.size() < 2) return "the simulated series has fewer than two rows";
-  return fmt::format("the simulated series runs from {:.4g} to {:.4g} s, not over the whole window {:.4g} to {:.4g} s",
-                     simulated.t_s.front(), simulated.t_s.back(), window.begin_s, window.end_s);
-}
-
 }  // namespace
 
 std::optional<double> Pair::difference() const {
@@ -88,7 +82,8 @@ Comparison describe(const Series& simulated, Window window, const ComparisonOpti
   add_simulated(result, simulated, options);
   result.arrival_s.simulated = arrival_at_fraction_of_peak(simulated, window, options.arrival_fraction);
   result.half_peak_s.simulated = arrival_at_fraction_of_peak(simulated, window, 0.5);
-  if (!covers(simulated, window)) result.remarks.push_back(coverage_remark(simulated, window));
+  if (const std::string remark = coverage_remark(simulated, window); !remark.empty())
+    result.remarks.push_back("the simulated series " + remark);
   return result;
 }
 
@@ -105,7 +100,7 @@ Comparison compare(const Series& simulated, const MeasuredSeries& measured, Wind
     result.remarks.push_back("the measured series does not run over the whole window");
   }
   if (!covers(simulated, window)) {
-    result.remarks.push_back(coverage_remark(simulated, window));
+    result.remarks.push_back("the simulated series " + coverage_remark(simulated, window));
   } else if (covers(measured, window)) {
     result.rmse = rmse(simulated, measured, window);
     if (const auto span = range(measured, window); result.rmse && span && *span > 0) {

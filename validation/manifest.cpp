@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "solvers/bring_to_disk.h"
+
 namespace sluice {
 
 namespace {
@@ -76,6 +78,7 @@ void write_manifest(const std::filesystem::path& directory, const nlohmann::json
   if (!out)
     throw std::runtime_error(fmt::format("{}: cannot be written: {} (free some space or choose another --out)",
                                          half.string(), std::strerror(errno)));
+  bring_to_disk(half);  // or a power cut leaves an empty file in place of the old one
   std::error_code error;
   std::filesystem::rename(half, target, error);
   if (error) throw std::runtime_error(fmt::format("{}: cannot be replaced: {}", target.string(), error.message()));

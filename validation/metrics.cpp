@@ -1,5 +1,7 @@
 #include "validation/metrics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,14 +9,60 @@
 
 namespace sluice {
 
-bool covers(const Curve& curve, Window window) {
+namespace {
+
+/// One interval is what a recording may lack at an end; the little more is for rounding of the stamps.
+double slack_s(double interval_s, Window window) {
+  constexpr double share = 0.1;
+  return std::min(1.000001 * interval_s, share * (window.end_s - window.begin_s));
+}
+
+bool reaches_begin(const Curve& curve, Window window) {
+  return curve.t_s.size() >= 2 && curve.t_s.front() < window.end_s &&
+         curve.t_s.front() - window.begin_s <= slack_s(curve.t_s[1] - curve.t_s[0], window);
+}
+
+bool reaches_end(const Curve& curve, Window window) {
   const auto n = curve.t_s.size();
-  if (n < 2 || window.end_s <= window.begin_s) return false;
-  // One interval is what a recording may lack at an end; the little more is for rounding of the stamps.
-  const double slack_begin = 1.000001 * (curve.t_s[1] - curve.t_s[0]);
-  const double slack_end = 1.000001 * (curve.t_s[n - 1] - curve.t_s[n - 2]);
-  return curve.t_s.front() - window.begin_s <= slack_begin && window.end_s - curve.t_s.back() <= slack_end &&
-         curve.t_s.front() < window.end_s && curve.t_s.back() > window.begin_s;
+  return n >= 2 && curve.t_s.back() > window.begin_s &&
+         window.end_s - curve.t_s.back() <= slack_s(curve.t_s[n - 1] - curve.t_s[n - 2], window);
+}
+
+/// Whether rows are missing between samples i - 1 and i: far longer than the intervals beside it. Codes that write few
+/// rows in calm water and many at an impact have long intervals beside long ones.
+bool is_gap(const Curve& curve, std::size_t i, Window window) {
+  constexpr double times_its_neighbours = 20;
+  constexpr double share = 0.01;
+  const double before_s = i >= 2 ? curve.t_s[i - 1] - curve.t_s[i - 2] : 0;
+  const double after_s = i + 1 < curve.t_s.size() ? curve.t_s[i + 1] - curve.t_s[i] : 0;
+  const double usual_s = std::max(before_s, after_s);
+  return usual_s > 0 && curve.t_s[i] - curve.t_s[i - 1] >
+                            std::max(times_its_neighbours * usual_s, share * (window.end_s - window.begin_s));
+}
+
+}  // namespace
+
+std::optional<Window> first_gap(const Curve& curve, Window window) {
+  for (auto i = std::max<std::size_t>(1, first_at_or_after(curve, window.begin_s));
+       i < curve.t_s.size() && curve.t_s[i - 1] < window.end_s; ++i)
+    if (curve.t_s[i] > window.begin_s && is_gap(curve, i, window)) return Window{curve.t_s[i - 1], curve.t_s[i]};
+  return std::nullopt;
+}
+
+bool covers(const Curve& curve, Window window) {
+  return window.end_s > window.begin_s && reaches_begin(curve, window) && reaches_end(curve, window) &&
+         !first_gap(curve, window);
+}
+
+std::string coverage_remark(const Curve& curve, Window window) {
+  if (curve.t_s.size() < 2) return "has fewer than two rows";
+  if (!reaches_end(curve, window))
+    return fmt::format("covers {:.2f} s of a window that ends at {:.2f} s", curve.t_s.back(), window.end_s);
+  if (!reaches_begin(curve, window))
+    return fmt::format("begins at {:.4g} s, the window at {:g} s", curve.t_s.front(), window.begin_s);
+  if (const auto gap = first_gap(curve, window))
+    return fmt::format("has no rows between {:.4g} and {:.4g} s", gap->begin_s, gap->end_s);
+  return "";
 }
 
 std::optional<Window> common_window(const Curve& a, const Curve& b, Window window) {
@@ -89,9 +137,9 @@ std::optional<Peak> smoothed_peak(const MeasuredSeries& series, Window window, d
 }
 
 std::optional<double> arrival_time(const Curve& curve, Window window, double threshold) {
+  // Only what lies before the crossing has to be there.
+  if (!reaches_begin(curve, window) || curve.t_s.back() <= window.begin_s) return std::nullopt;
   const auto n = curve.t_s.size();
-  // Only the beginning has to be there: what comes after the crossing does not matter.
-  if (n < 2 || !covers(curve, {window.begin_s, std::min(window.end_s, curve.t_s.back())})) return std::nullopt;
   const double begin = std::max(window.begin_s, curve.t_s.front());
   double t0 = begin;
   double v0 = value_at(curve, begin).value();
@@ -99,6 +147,7 @@ std::optional<double> arrival_time(const Curve& curve, Window window, double thr
   for (auto i = first_at_or_after(curve, begin); i < n; ++i) {
     const double t1 = curve.t_s[i];
     const double v1 = curve.value[i];
+    if (i > 0 && is_gap(curve, i, window)) return std::nullopt;
     if (v1 >= threshold) {
       const double t = t0 + (t1 - t0) * (threshold - v0) / (v1 - v0);
       return t <= window.end_s ? std::optional(t) : std::nullopt;

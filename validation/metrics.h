@@ -39,10 +39,17 @@ struct Lag {
   double correlation = 0;
 };
 
-/// Whether the curve reaches both ends of the window. A gap at an end of up to one sampling interval (the curve's own,
-/// next to that end) counts as reached: recordings begin with their first sample. Integrals then run over what is
-/// there.
+/// Whether the curve reaches both ends of the window and has no gap in between. A gap at an end of up to one sampling
+/// interval (the curve's own, next to that end) and a tenth of the window counts as reached: recordings begin with
+/// their first sample. Integrals then run over what is there.
 bool covers(const Curve& curve, Window window);
+
+/// The first gap between samples within the window, in which rows are missing and a straight line would be an
+/// invention: longer than 20 times both intervals beside it and a hundredth of the window. Missing when there is none.
+std::optional<Window> first_gap(const Curve& curve, Window window);
+
+/// Why the curve does not cover the window, such as "covers 5.89 s of a window that ends at 6.00 s"; "" when it does.
+std::string coverage_remark(const Curve& curve, Window window);
 
 /// The part of the window that both curves reach; missing when there is none.
 std::optional<Window> common_window(const Curve& a, const Curve& b, Window window);

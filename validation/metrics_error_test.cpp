@@ -200,7 +200,7 @@ TEST(Compare, OfARunThatStoppedEarlySaysWhatIsMissing) {
   EXPECT_FALSE(c.lag_s);
   EXPECT_TRUE(c.impulse.measured);
   ASSERT_EQ(c.remarks.size(), 1u);
-  EXPECT_EQ(c.remarks[0], "the simulated series runs from 0 to 2 s, not over the whole window 0 to 6 s");
+  EXPECT_EQ(c.remarks[0], "the simulated series covers 2.00 s of a window that ends at 6.00 s");
 }
 
 TEST(Compare, OfASensorThatIsWetFromTheStartHasNoArrival) {

@@ -32,6 +32,35 @@ TEST(Covers, ForgivesOneSamplingIntervalAtAnEnd) {
   EXPECT_FALSE(covers(series, {6, 6}));
   EXPECT_FALSE(covers(Series{"", "", {0}, {1}}, {0, 0.1}));
   EXPECT_FALSE(covers(Series{}, whole));
+  EXPECT_FALSE(covers(Series{"", "", {1, 5}, {1, 1}}, whole)) << "an interval is little where the window is long";
+}
+
+// Where rows are missing a straight line would be drawn through the impact.
+TEST(Covers, ForgivesNoGapInside) {
+  Series series = sampled_evenly(bell, whole, 0.001);
+  EXPECT_FALSE(first_gap(series, whole));
+  EXPECT_EQ(coverage_remark(series, whole), "");
+  series.t_s.erase(series.t_s.begin() + 1100, series.t_s.begin() + 1300);
+  series.value.erase(series.value.begin() + 1100, series.value.begin() + 1300);
+  const auto gap = first_gap(series, whole);
+  ASSERT_TRUE(gap);
+  EXPECT_NEAR(gap->begin_s, 1.099, 1e-9);
+  EXPECT_NEAR(gap->end_s, 1.3, 1e-9);
+  EXPECT_FALSE(covers(series, whole));
+  EXPECT_FALSE(impulse(series, whole));
+  EXPECT_EQ(coverage_remark(series, whole), "has no rows between 1.099 and 1.3 s");
+  EXPECT_TRUE(covers(series, {0, 1.05})) << "before it";
+  EXPECT_TRUE(covers(series, {1.3, 6})) << "after it";
+  EXPECT_FALSE(arrival_time(series, whole, 500)) << "it may lie in the gap";
+  EXPECT_TRUE(arrival_time(series, whole, 10)) << "before it";
+}
+
+TEST(Covers, IntervalsOfManyLengthsAreNoGap) {
+  Series series = sampled_evenly(bell, {0, 1}, 0.05);
+  const Series fine = sampled_evenly(bell, {1.001, 6}, 0.001);
+  series.t_s.insert(series.t_s.end(), fine.t_s.begin(), fine.t_s.end());
+  series.value.insert(series.value.end(), fine.value.begin(), fine.value.end());
+  EXPECT_TRUE(covers(series, whole));
 }
 
 TEST(CommonWindow, IsWhatBothReach) {

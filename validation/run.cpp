@@ -52,16 +52,10 @@ void say_if_unlocked(const RunOptions& options, RunLog& log, const RunLock& lock
 // Nothing has been computed yet; the directory still says what happened.
 RunOutcome failed_at_start(const Case& c, const RunSettings& settings, const RunOptions& options, RunLog& log,
                            const std::string& error) {
-  write_manifest(options.out, {{"schema", manifest_schema},
-                               {"case", c.name},
-                               {"solver", settings.solver},
-                               {"walls", settings.walls},
-                               {"l0_m", settings.l0_m},
-                               {"commit", build_info().commit},
-                               {"started", utc_now()},
-                               {"parameters", settings.parameters},
-                               {"status", "failed"},
-                               {"error", error}});
+  nlohmann::json manifest = asked_manifest(c, settings);
+  manifest["status"] = "failed";
+  manifest["error"] = error;
+  write_manifest(options.out, manifest);
   log.line("failed: " + error);
   return {"failed", error, 1};
 }

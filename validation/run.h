@@ -38,9 +38,10 @@ struct ResumeOptions {
 };
 
 struct RunOutcome {
-  std::string status;  ///< "finished", "interrupted" or "failed", as in run.json
-  std::string error;   ///< of a failed run
-  int exit_code = 0;   ///< 0; 1 failed; 128 + signal when interrupted
+  std::string status;     ///< "finished", "interrupted" or "failed", as in run.json
+  std::string error;      ///< of a failed run
+  int exit_code = 0;      ///< 0; 1 failed; 128 + signal when interrupted
+  bool advanced = false;  ///< made a time step, from where it began or was resumed
 };
 
 /// Builds the scene and the solver, steps to the end, samples the sensors, and writes run.json, probes.csv, log.txt and

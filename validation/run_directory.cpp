@@ -69,11 +69,6 @@ T require(const std::optional<T>& value, const fs::path& file, const char* key, 
       fmt::format("{}: {}: is missing or of the wrong type (add \"{}\": {})", file.string(), key, key, example));
 }
 
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char ch) { return std::toupper(ch); });
-  return text;
-}
-
 }  // namespace
 
 std::optional<double> RunRecord::number(std::string_view dotted) const {
@@ -90,11 +85,20 @@ std::optional<std::string> RunRecord::text(std::string_view dotted) const {
 
 std::string RunRecord::label() const {
   // Solvers of this project are acronyms; another code's name stays as its author writes it.
-  std::string name = own ? upper(solver) : solver;
+  std::string name = own ? in_capitals(solver) : solver;
   if (!walls.empty()) name += " " + walls;
   name += fmt::format(", l0 = {:g} m", l0_m);
   if (const auto a = alpha()) name += fmt::format(", alpha = {:g}", *a);
   return name;
+}
+
+std::vector<std::string> RunRecord::warnings() const {
+  std::vector<std::string> texts;
+  const auto found = manifest.find("warnings");
+  if (found == manifest.end() || !found->is_array()) return texts;
+  for (const nlohmann::json& warning : *found)
+    if (warning.is_string()) texts.push_back(warning.get<std::string>());
+  return texts;
 }
 
 std::vector<fs::path> RunRecord::snapshots() const {
@@ -110,7 +114,8 @@ RunRecord read_run(const fs::path& directory) {
   if (!fs::is_directory(directory))
     throw std::runtime_error(fmt::format("{}: no such run directory (give the --out of a run)", directory.string()));
   RunRecord run = parse_run(manifest_text(directory / "run.json"), directory);
-  run.probes = read_probes(directory / "probes.csv");
+  if (run.status() != "failed" || fs::exists(directory / "probes.csv"))
+    run.probes = read_probes(directory / "probes.csv");
   return run;
 }
 

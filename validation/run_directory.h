@@ -34,11 +34,14 @@ struct RunRecord {
   std::string status() const { return text("status").value_or(""); }
   /// Short text for legends and table heads, such as "WCSPH extrapolated, l0 = 0.02 m, alpha = 0.01".
   std::string label() const;
+  /// What the run noted of itself while it went on (`warnings`); entries that are no text are passed over.
+  std::vector<std::string> warnings() const;
   /// Snapshot files under snapshots/, sorted by name.
   std::vector<std::filesystem::path> snapshots() const;
 };
 
-/// Reads a run directory. Throws std::runtime_error naming the file and what is missing or malformed.
+/// Reads a run directory; a run that failed before it began has no probes.csv, and then no rows. Throws
+/// std::runtime_error naming the file and what is missing or malformed.
 RunRecord read_run(const std::filesystem::path& directory);
 
 /// The same from the text of its run.json alone, without probes; messages call it `directory`/run.json.

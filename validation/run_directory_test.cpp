@@ -9,8 +9,10 @@ namespace sluice {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::StartsWith;
 
 std::string complaint(const std::string& manifest) {
@@ -29,6 +31,15 @@ TEST(RunDirectory, ThreeLinesSuffice) {
   EXPECT_FALSE(run.own);
   EXPECT_EQ(run.label(), "interFoam, l0 = 0.02 m");
   EXPECT_FALSE(run.number("particles.fluid").has_value());
+}
+
+TEST(RunDirectory, WarningsAreTheTextsAmongThem) {
+  const auto warnings = [](const std::string& value) {
+    return parse_run(R"({"case": "c", "solver": "s", "l0_m": 0.02, "warnings": )" + value + "}", "runs/x").warnings();
+  };
+  EXPECT_THAT(warnings(R"(["one", 2, {"a": "b"}, "three"])"), ElementsAre("one", "three"));
+  EXPECT_THAT(warnings(R"("one")"), IsEmpty());
+  EXPECT_THAT(parse_run(R"({"case": "c", "solver": "s", "l0_m": 0.02})", "runs/x").warnings(), IsEmpty());
 }
 
 TEST(RunDirectory, ManifestsThatCannotBeUsedAreRefused) {

@@ -96,6 +96,7 @@ RunOutcome RunLoop::execute() {
   }
   progress_.finish(state());
   close(outcome);
+  outcome.advanced = dt_s_ > 0;
   return outcome;
 }
 

@@ -65,8 +65,7 @@ void put_sensors(json& m, const std::vector<PlacedSensor>& sensors) {
 
 }  // namespace
 
-json start_manifest(const Case& c, const RunSettings& settings, const Scene& scene,
-                    const std::vector<PlacedSensor>& sensors) {
+json asked_manifest(const Case& c, const RunSettings& settings) {
   json m;
   m["schema"] = manifest_schema;
   m["case"] = c.name;
@@ -86,6 +85,12 @@ json start_manifest(const Case& c, const RunSettings& settings, const Scene& sce
   m["status"] = "running";
   m["error"] = "";
   put_provenance(m, c);
+  return m;
+}
+
+json start_manifest(const Case& c, const RunSettings& settings, const Scene& scene,
+                    const std::vector<PlacedSensor>& sensors) {
+  json m = asked_manifest(c, settings);
   put_scene(m, scene);
   put_sensors(m, sensors);
   return m;

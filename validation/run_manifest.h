@@ -28,6 +28,9 @@ struct RunTally {
   PhaseTimes earlier_phases;  ///< of a run that was resumed: what its solver's phases took before
 };
 
+/// What was asked for, by whom: all that is known before there is a scene; status "running".
+nlohmann::json asked_manifest(const Case& c, const RunSettings& settings);
+
 /// Everything that is known before the first step, status "running".
 nlohmann::json start_manifest(const Case& c, const RunSettings& settings, const Scene& scene,
                               const std::vector<PlacedSensor>& sensors);

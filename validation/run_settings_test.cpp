@@ -228,6 +228,18 @@ TEST(Progress, PlainLinesComeAtFivePercentButNotWithinTenSeconds) {
   EXPECT_NE(progress.update({0.72, 5, 0, 0, 83}), "");  // a minute without a line
 }
 
+// 100 s at a hundredth of the speed lie behind: they say nothing about what is left.
+TEST(Progress, AResumedRunIsJudgedByWhatItDoesNow) {
+  EXPECT_THAT(progress_text({2.0, 4000, 5e-4, 40e6, 110.0}, 6.0, {1.0, 2000, 5e-4, 20e6, 100.0}),
+              HasSubstr("2.00 M particle-steps/s, 40 s left"));
+  Progress progress(nullptr, false, 6.0);
+  EXPECT_THAT(progress.update({1.0, 2000, 5e-4, 20e6, 100.0}), HasSubstr("0.20 M particle-steps/s, 8 min 20 s left"))
+      << "nothing but the past is known yet";
+  EXPECT_THAT(progress.update({2.0, 4000, 5e-4, 40e6, 110.0}), HasSubstr("2.00 M particle-steps/s, 40 s left"));
+  EXPECT_THAT(progress.update({2.5, 5000, 5e-4, 50e6, 170.0}), HasSubstr("0.43 M"));
+  EXPECT_THAT(progress.update({2.8, 5600, 5e-4, 56e6, 230.0}), HasSubstr("0.10 M")) << "since 170 s, not since 100 s";
+}
+
 TEST(Suggest, FindsTheNearestName) {
   const std::vector<std::string> names{"alpha", "delta", "courant"};
   EXPECT_EQ(closest("alhpa", names), "alpha");

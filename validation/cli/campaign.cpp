@@ -190,15 +190,23 @@ int compute_only(const Campaign& campaign, const CampaignArguments& arguments) {
     fmt::print("{}: finished already\n", arguments.only);
     return 0;
   }
-  const double share_before = estimate(campaign, *run, {}).done_share;
   const RunOutcome outcome = compute(campaign, *run, arguments);
   if (outcome.status == "failed") throw std::runtime_error(fmt::format("{}: {}", arguments.only, outcome.error));
   // Who puts an interrupted run back into a queue must not do so for ever.
-  if (outcome.status == "interrupted" && estimate(campaign, *run, {}).done_share <= share_before)
+  if (outcome.status == "interrupted" && !outcome.advanced)
     throw std::runtime_error(
         fmt::format("{}: interrupted before it had made a single step (give it more time)", arguments.only));
   fmt::print("{}: {}\n", arguments.only, outcome.status);
   return outcome.exit_code;
+}
+
+/// Of a forced campaign: what it has not come to, and what would be taken for finished.
+void tell_kept(const Campaign& campaign, std::size_t from) {
+  for (std::size_t i = from; i < campaign.runs.size(); ++i)
+    if (state_of(campaign, campaign.runs[i]) == CampaignState::finished)
+      tell(stderr,
+           fmt::format("but keeps {}, of before (anew: --force --only {})\n",
+                       campaign.runs[i].directory.filename().string(), campaign.runs[i].directory.filename().string()));
 }
 
 int compute_and_report(const Campaign& campaign, const CampaignArguments& arguments, const fs::path& out,
@@ -210,6 +218,7 @@ int compute_and_report(const Campaign& campaign, const CampaignArguments& argume
   const bool all_well = print_results(campaign, results);
   if (interrupted != 0) {
     tell(stderr, fmt::format("interrupted; the same command {}goes on\n", arguments.force ? "without --force " : ""));
+    if (arguments.force) tell_kept(campaign, results.size());
     return interrupted;
   }
   tell(stdout, fmt::format("{}: {} taken, {} planned at its begin\n", campaign.name, human_time(taken.count()),

@@ -50,12 +50,15 @@ std::vector<fs::path> run_directories(const CompareArguments& arguments) {
 }
 
 /// What the report says of its runs too: wrong units show here first.
-void tell_problems(const ReportData& data) {
+void tell_warnings(const ReportData& data) {
   constexpr std::size_t longest = 1000;  // of what may quote a manifest
-  for (const AnalysedRun& run : data.runs)
-    for (const std::string& problem : run.problems)
+  for (const AnalysedRun& run : data.runs) {
+    std::vector<std::string> warnings = run.record.warnings();
+    warnings.insert(warnings.end(), run.problems.begin(), run.problems.end());
+    for (const std::string& warning : warnings)
       tell(stderr, fmt::format("sluice: warning: {} ({}): {}\n", run.key, printable(run.record.path.string(), longest),
-                               printable(problem, longest)));
+                               printable(warning, longest)));
+  }
 }
 
 int compare(CompareArguments& arguments) {
@@ -68,7 +71,7 @@ int compare(CompareArguments& arguments) {
   }
   arguments.options.figures = !arguments.no_figures;
   const ReportData data = analyse(directories);
-  tell_problems(data);
+  tell_warnings(data);
   write_analysed(data, arguments.out, arguments.options);
   fmt::print("report: {}\n", (fs::path(arguments.out) / "index.html").string());
   return 0;

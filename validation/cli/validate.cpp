@@ -90,6 +90,14 @@ std::vector<std::string> walls_in_order(const SolverOption& solver) {
   return names;
 }
 
+std::string verdict(const std::vector<AcceptanceCheck>& checks) {
+  if (all_passed(checks)) return "all bands hold";
+  const bool missed = std::any_of(checks.begin(), checks.end(), [](const AcceptanceCheck& check) {
+    return check.verdict == AcceptanceVerdict::fail;
+  });
+  return missed ? "A BAND IS MISSED" : "A BAND COULD NOT BE JUDGED";
+}
+
 bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
   const Measurements measured = Measurements::load(c);
   for (const std::string& problem : measured.problems())
@@ -108,10 +116,9 @@ bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
       continue;
     }
     judged = true;
-    const bool ok = all_passed(checks);
-    tell(stdout, fmt::format("{}: {}\n{}{}\n", directory.string(), record.label(), acceptance_table(checks),
-                             ok ? "all bands hold" : "A BAND IS MISSED"));
-    passed = passed && ok;
+    tell(stdout,
+         fmt::format("{}: {}\n{}{}\n", directory.string(), record.label(), acceptance_table(checks), verdict(checks)));
+    passed = passed && all_passed(checks);
   }
   if (!judged) tell(stdout, "no acceptance row applies to any of these runs\n");
   return passed && judged;

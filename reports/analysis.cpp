@@ -9,20 +9,18 @@
 #include <system_error>
 #include <tuple>
 
+#include "reports/run_problems.h"
 #include "reports/text.h"
+#include "validation/curve.h"
+#include "validation/printable.h"
 
 namespace sluice {
 
 namespace {
 
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
 /// Our own solvers have names that are abbreviations; those of other codes stay as their owners write them.
 std::string solver_name(const RunRecord& record) {
-  return record.own ? upper(record.solver) : record.solver;
+  return record.own ? in_capitals(record.solver) : record.solver;
 }
 
 /// A path that says nothing about the machine: relative to the working directory, or the last component.
@@ -32,17 +30,6 @@ std::string shown_directory(const std::filesystem::path& path) {
   if (!relative.empty() && *relative.begin() != "..") return relative.generic_string();
   const std::filesystem::path clean = path.lexically_normal();
   return (clean.has_filename() ? clean.filename() : clean.parent_path().filename()).generic_string();
-}
-
-/// The model in the middle of a column's name, "P1_wall_Pa" for P1 in Pa; nullopt when it is another sensor or
-/// quantity.
-std::optional<std::string> model_of(const std::string& column, const CaseSensor& sensor) {
-  const std::string prefix = sensor.name + "_";
-  const std::string suffix = fmt::format("_{}", unit_of(sensor.kind));
-  if (column == probe_column(sensor)) return "";
-  if (!column.starts_with(prefix) || !column.ends_with(suffix)) return std::nullopt;
-  if (column.size() <= prefix.size() + suffix.size()) return std::nullopt;
-  return column.substr(prefix.size(), column.size() - prefix.size() - suffix.size());
 }
 
 SensorReading make_reading(const Case& c, const CaseSensor& sensor, const std::string& model, Series series,
@@ -77,49 +64,6 @@ void read_sensor(AnalysedRun& run, const Case& c, const CaseSensor& sensor, cons
         run.record.walls == "dynamic" && (model == "wall" || (sensor.kind == SensorKind::force && model == "pressure"));
     run.readings.back().primary = named ? model == primary : model.empty() || models.size() == 1;
   }
-}
-
-/// Pressures in kPa under the name of Pa, heights in millimetres: off by a factor that no physics explains.
-void note_doubtful_units(AnalysedRun& run, const ReportData& data) {
-  constexpr double too_much = 150;
-  for (const SensorReading& reading : run.readings) {
-    const MeasuredSeries* measured = data.measured_series(reading.sensor);
-    if (!reading.primary || reading.warning_only || measured == nullptr || measured->maximum.empty() ||
-        reading.series.value.empty())
-      continue;
-    const double ratio = *std::max_element(reading.series.value.begin(), reading.series.value.end()) /
-                         *std::max_element(measured->maximum.begin(), measured->maximum.end());
-    if (ratio > too_much || (ratio > 0 && ratio < 1 / too_much))
-      run.problems.push_back(fmt::format("{} peaks at {} times the measured value: is its unit {}?", reading.sensor,
-                                         significant(ratio, 2), reading.comparison.unit));
-  }
-}
-
-void note_problems(AnalysedRun& run, const ReportData& data) {
-  constexpr double longest_run = 100;  // over the case's; milliseconds under the name of seconds
-  const Window window = data.window;
-  const RunRecord& record = run.record;
-  if (record.status() == "running") run.problems.push_back("still running when the report was made");
-  if (record.status() == "interrupted") run.problems.push_back("interrupted before its end");
-  if (record.status() == "failed")
-    run.problems.push_back("failed: " + record.text("error").value_or("no reason recorded"));
-  if (const auto hash = record.text("case_hash"); hash && *hash != data.the_case.hash)
-    run.problems.push_back(fmt::format("made with another version of the case file ({}; this report reads {})", *hash,
-                                       data.the_case.hash));
-  const std::vector<double>& times = record.probes.times_s();
-  if (times.empty())
-    run.problems.push_back("probes.csv has no rows");
-  else if (times.back() < window.end_s - 0.01)
-    run.problems.push_back(
-        fmt::format("covers {} s of a window that ends at {} s: what needs the whole window is missing",
-                    fixed(times.back(), 2), fixed(window.end_s, 2)));
-  else if (times.back() > longest_run * data.the_case.t_end_s)
-    run.problems.push_back(fmt::format("ends at {} s, the case at {} s: are its times in s?",
-                                       significant(times.back(), 2), significant(data.the_case.t_end_s, 2)));
-  note_doubtful_units(run, data);
-  if (record.number("lost.through_walls").value_or(0) > 0)
-    run.problems.push_back(fmt::format("fluid particles that went through a wall, an error of the method: {}",
-                                       grouped(std::llround(*record.number("lost.through_walls")))));
 }
 
 /// Own runs first, then as a reader would look them up.
@@ -175,6 +119,15 @@ Case case_of(const std::vector<RunRecord>& records) {
 
 }  // namespace
 
+std::optional<std::string> model_of(const std::string& column, const CaseSensor& sensor) {
+  const std::string prefix = sensor.name + "_";
+  const std::string suffix = fmt::format("_{}", unit_of(sensor.kind));
+  if (column == probe_column(sensor)) return "";
+  if (!column.starts_with(prefix) || !column.ends_with(suffix)) return std::nullopt;
+  if (column.size() <= prefix.size() + suffix.size()) return std::nullopt;
+  return column.substr(prefix.size(), column.size() - prefix.size() - suffix.size());
+}
+
 std::string SensorReading::remarked_model() const {
   if (warning_only) return model_name() + " (warning only)";
   return model_name() + (primary && !model.empty() ? " (primary)" : "");
@@ -212,8 +165,14 @@ Window ReportData::window_of(const std::string& sensor) const {
 std::string ReportData::measured_remark(const std::string& sensor) const {
   const CaseSensor* found = the_case.find_sensor(sensor);
   if (found == nullptr || measured_series(sensor) == nullptr) return "Measured: missing.";
-  if (found->measured_shift_s == 0) return "";
-  return fmt::format("{} s were added to the measured times, as the case declares.", shortest(found->measured_shift_s));
+  std::string remark;
+  if (found->measured_shift_s != 0)
+    remark =
+        fmt::format("{} s were added to the measured times, as the case declares.", shortest(found->measured_shift_s));
+  if (const Window w = window_of(sensor); !covers(*measured_series(sensor), w))
+    remark += fmt::format("{}The measured series does not run over {} to {} s: what needs all of it is missing.",
+                          remark.empty() ? "" : " ", shortest(w.begin_s), shortest(w.end_s));
+  return remark;
 }
 
 std::vector<std::string> ReportData::sensors(SensorKind kind) const {
@@ -244,7 +203,7 @@ ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
     for (const CaseSensor& sensor : data.the_case.sensors)
       read_sensor(run, data.the_case, sensor, data.measured_series(sensor.name));
     run.acceptance = check_acceptance(data.the_case, run.record, data.measured);
-    note_problems(run, data);
+    run.problems = run_problems(run, data);
     data.runs.push_back(std::move(run));
   }
   return data;

@@ -68,6 +68,10 @@ struct ReportData {
   std::string measured_remark(const std::string& sensor) const;
 };
 
+/// The model in the middle of a column's name, "wall" of "P1_wall_Pa" for P1; nullopt when the column is another
+/// sensor's or quantity's.
+std::optional<std::string> model_of(const std::string& column, const CaseSensor& sensor);
+
 /// Reads the runs and compares them. Throws std::runtime_error when no run is given, a run cannot be read, the runs are
 /// of several cases, or the case is unknown.
 ReportData analyse(const std::vector<std::filesystem::path>& run_directories);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/quantity.h"
 
 namespace sluice {
@@ -23,6 +25,19 @@ const Pair& arrival_pair(const Comparison& c) {
   return c.arrival_s;
 }
 
+/// Runs by method: solver, walls, and what they were given otherwise than the case has it. An ablation is a method of
+/// its own and says nothing of the one that it cuts something from.
+std::vector<RunGroup> methods(const ReportData& data) {
+  std::vector<RunGroup> groups;
+  for (const AnalysedRun& run : data.runs) {
+    const std::string title = run.group + parameters_text(changed_parameters(run.record, data.the_case));
+    auto found = std::find_if(groups.begin(), groups.end(), [&](const RunGroup& g) { return g.title == title; });
+    if (found == groups.end()) found = groups.insert(groups.end(), {title, {}});
+    found->runs.push_back(&run);
+  }
+  return groups;
+}
+
 std::vector<PredictedAndMeasured> pairs_of(const ReportData& data, const RunGroup& group, SensorKind kind, double scale,
                                            Measure measure) {
   std::vector<PredictedAndMeasured> pairs;
@@ -39,7 +54,7 @@ std::vector<PredictedAndMeasured> pairs_of(const ReportData& data, const RunGrou
 void add(std::vector<BiasQuantity>& out, const ReportData& data, SensorKind kind, const std::string& what,
          const std::string& unit, double scale, Measure measure) {
   BiasQuantity quantity{fmt::format("{} [{}]", what, unit), unit, {}};
-  for (const RunGroup& group : run_groups(data, data.runs.size()))
+  for (const RunGroup& group : methods(data))
     if (auto pairs = pairs_of(data, group, kind, scale, measure); !pairs.empty())
       quantity.methods.push_back({group.title, std::move(pairs)});
   if (!quantity.methods.empty()) out.push_back(std::move(quantity));

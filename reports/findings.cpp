@@ -106,8 +106,8 @@ std::string peak_finding(const ReportData& data) {
   });
   if (runs.empty()) return "";
   const Comparison& best = runs.front().run->primary(sensor)->comparison;
-  std::string out = fmt::format("**First impact** at {}, after a 10 ms running mean: measured {} kPa; {} gives {} kPa",
-                                sensor, fixed(*best.smoothed_peak.measured / 1000, 1), runs.front().run->label,
+  std::string out = fmt::format("**Peak** at {}, after a 10 ms running mean: measured {} kPa; {} gives {} kPa", sensor,
+                                fixed(*best.smoothed_peak.measured / 1000, 1), runs.front().run->label,
                                 fixed(*best.smoothed_peak.simulated / 1000, 1));
   if (runs.size() > 1) {
     const Comparison& worst = runs.back().run->primary(sensor)->comparison;
@@ -214,7 +214,8 @@ std::string walls_finding(const ReportData& data) {
             fmt::format("{} walls read by {} {}", run->record.walls, reading->model_name(), percent(*error)));
     }
   if (const auto paper = published_mean(data, "wcsph", best->first->record.alpha()))
-    parts.push_back(fmt::format("the paper's WCSPH (dynamic walls, kernel, finer) {}", percent(*paper)));
+    parts.push_back(fmt::format("the paper's WCSPH (dynamic walls, kernel{}) {}", published_distance(data, "wcsph"),
+                                percent(*paper)));
   if (parts.size() < 2) return "";
   return fmt::format(
       "**Walls and probe**, mean unsigned deviation of the impulses in {} and {}: {} ([all pairs](#walls)).",

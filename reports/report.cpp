@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
+#include <regex>
 #include <stdexcept>
 
 #include "reports/document.h"
@@ -33,6 +35,17 @@ void write_tables(const ReportDocument& document, const std::filesystem::path& f
       }
 }
 
+/// Tables and figures that the report before this one linked to: what this one does not make again must not stay beside
+/// it. Files of another origin are left alone.
+void remove_last_report(const std::filesystem::path& out) {
+  std::ifstream in(out / "report.md");
+  const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  static const std::regex link(R"(\]\(((?:tables|figures)/[A-Za-z0-9_.-]+)\))");
+  std::error_code ignored;
+  for (std::sregex_iterator found(page.begin(), page.end(), link), end; found != end; ++found)
+    std::filesystem::remove(out / (*found)[1].str(), ignored);
+}
+
 std::string subtitle(const ReportData& data) {
   const Case& c = data.the_case;
   const bool measured = std::any_of(c.sensors.begin(), c.sensors.end(),
@@ -53,6 +66,7 @@ void write_report(const std::vector<std::filesystem::path>& run_directories, con
 
 void write_analysed(const ReportData& data, const std::filesystem::path& out, const ReportOptions& options) {
   std::filesystem::create_directories(out);
+  remove_last_report(out);
   const FigureMaker maker{data, out, options.figures};
   ReportDocument document;
   document.title = options.title.empty() ? data.the_case.title : options.title;

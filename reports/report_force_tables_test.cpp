@@ -9,6 +9,7 @@
 #include "reports/synthetic_run.h"
 #include "reports/tables.h"
 #include "reports/test_files.h"
+#include "reports/test_tables.h"
 #include "validation/digest.h"
 
 namespace sluice {
@@ -17,19 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using synthetic::MadeForceRun;
 
+using test_files::cell;
 using test_files::fresh;
-
-const TableCell& cell(const Table& table, const std::string& start, const std::string& csv_name,
-                      const std::string& second = "") {
-  static const TableCell none{"no such cell", std::nullopt};
-  for (std::size_t k = 0; k < table.columns.size(); ++k)
-    for (const TableRow& row : table.rows)
-      if (table.columns[k].csv_name == csv_name && !row.is_group() && row.cells[0].text.starts_with(start) &&
-          (second.empty() || row.cells[1].text.starts_with(second)))
-        return row.cells[k];
-  ADD_FAILURE() << "no row " << start << " with a column " << csv_name << " in " << table.name;
-  return none;
-}
 
 TEST(ForceTables, KnownScaleAndShiftGiveKnownNumbersByBothRoutes) {
   const fs::path dir = fresh("force_known");
@@ -232,54 +222,6 @@ TEST(ForceTables, WallsAreComparedBetweenRunsOfTheSameParameters) {
   run.parameters = {{"not_in_the_case_file", 1}};
   synthetic::write_force_run(directories[1], run);
   EXPECT_TRUE(wall_pairs(analyse(directories)).empty());
-}
-
-/// A working directory with a user's file in it, as in a clone.
-class UsersMeasurement : public testing::Test {
- protected:
-  void SetUp() override {
-    before_ = fs::current_path();
-    folder_ = fresh("force_user");
-    fs::create_directories(folder_ / "data");
-    fs::copy(resolve_in_source_tree("data/aureli2015"), folder_ / "data/aureli2015", fs::copy_options::recursive);
-    fs::remove(folder_ / "data/aureli2015/digest.csv");
-    fs::current_path(folder_);
-  }
-  void TearDown() override { fs::current_path(before_); }
-
-  fs::path before_;
-  fs::path folder_;
-};
-
-TEST_F(UsersMeasurement, IsMissingUntilAFileOfTheStatedFormIsThere) {
-  MadeForceRun run;
-  run.case_name = "aureli";
-  run.l0_m = 0.02;
-  run.scale = 1.2;
-  synthetic::write_force_run("run", run);
-  ReportData data = analyse({"run"});
-  EXPECT_EQ(data.measured_series("F_block"), nullptr);
-  EXPECT_EQ(data.measured_remark("F_block"), "Measured: missing.");
-  ASSERT_EQ(data.measured.problems().size(), 1u);
-  EXPECT_NE(data.measured.problems()[0].find("data/aureli2015/README.md"), std::string::npos);
-  EXPECT_EQ(cell(force_peaks_table(data), "Experiment", "peak_N").text, "missing");
-  EXPECT_EQ(cell(force_peaks_table(data), "R1", "peak_deviation_percent").text, "missing");
-
-  fs::create_directories("raw/aureli2015");
-  std::ofstream out("raw/aureli2015/force.csv");
-  out << "t_s,F_N\n";
-  for (int k = 0; k <= 600; ++k) {
-    const double t = 0.005 * k;
-    out << t << ',' << std::max(0.0, 10 * (1 - std::abs(t - 0.6) / 0.1)) << '\n';
-  }
-  out.close();
-  EXPECT_EQ(make_digests("data/aureli2015", "raw").front(), "data/aureli2015/digest.csv");
-  data = analyse({"run"});
-  EXPECT_TRUE(data.measured.problems().empty());
-  EXPECT_NEAR(*cell(force_peaks_table(data), "Experiment", "peak_N").value, 10, 1e-9);
-  EXPECT_NEAR(*cell(force_peaks_table(data), "R1", "peak_deviation_percent", "acceleration").value, 20, 1);
-  EXPECT_NEAR(*cell(force_impulses_table(data, "F_block"), "R1", "impulse_0_3_s_deviation_percent").value, 20, 0.5);
-  EXPECT_EQ(cell(force_impulses_table(data, "F_block"), "R1", "inside_band_percent").text, "missing") << "no band";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <fstream>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -39,6 +40,24 @@ class WholeReport : public testing::Test {
   static fs::path out;
 };
 fs::path WholeReport::out;
+
+TEST(Report, TakesAwayWhatTheOneBeforeLinkedToAndNothingElse) {
+  const fs::path run = fresh("again_run");
+  synthetic::write_run(run, {});
+  const fs::path again = fresh("again_out");
+  fs::create_directories(again / "tables");
+  fs::create_directories(again / "figures");
+  for (const char* file : {"tables/early_runs.csv", "figures/old.svg", "tables/mine.csv"}) std::ofstream(again / file);
+  std::ofstream(again / "report.md") << "[CSV](tables/early_runs.csv) ![a](figures/old.svg) [x](../again_run/run.json)";
+  ReportOptions options;
+  options.figures = false;
+  write_report({run}, again, options);
+  EXPECT_FALSE(fs::exists(again / "tables/early_runs.csv"));
+  EXPECT_FALSE(fs::exists(again / "figures/old.svg"));
+  EXPECT_TRUE(fs::exists(again / "tables/mine.csv"));
+  EXPECT_TRUE(fs::exists(run / "run.json"));
+  EXPECT_TRUE(fs::exists(again / "tables/runs.csv"));
+}
 
 TEST_F(WholeReport, ThePageMakesNoRequests) {
   const std::string html = read(out / "index.html");

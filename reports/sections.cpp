@@ -42,12 +42,12 @@ ReportSection parameters_section(const ReportData& data) {
 void add_walls_section(std::vector<ReportSection>& sections, const FigureMaker& maker) {
   if (wall_pairs(maker.data).empty() || !maker.data.has(SensorKind::pressure)) return;
   ReportSection section{"walls", "Boundary models and sensor models", {}};
-  section.blocks.push_back(hint(
+  section.blocks.push_back(hint(fmt::format(
       "Each group holds two runs that differ in their walls alone, and the paper's own numbers at the same α. Down a "
       "group one sees what the walls do to the error; between the rows of one run, what the probe does. The paper used "
-      "`dynamic` walls and the `kernel` probe at a finer particle distance. The wall's own pressure with `dynamic` "
-      "walls is "
-      "shown as a warning only: its density can rise but never fall below the reference."));
+      "`dynamic` walls and the `kernel` probe{}. The wall's own pressure with `dynamic` walls is shown as a warning "
+      "only: its density can rise but never fall below the reference.",
+      published_distance(maker.data, "wcsph"))));
   section.blocks.push_back(boundary_models_table(maker.data));
   append(section, boundary_model_figures(maker));
   sections.push_back(std::move(section));
@@ -179,15 +179,25 @@ ReportSection cost_section(const FigureMaker& maker) {
   return section;
 }
 
+/// Why a primary reading lacks something, where it is not that the run does not cover the window, which is told once.
+void add_missing_metrics(BulletList& list, const ReportData& data, const AnalysedRun& run) {
+  for (const SensorReading& reading : run.readings) {
+    const bool told = !reading.primary || data.measured_series(reading.sensor) == nullptr ||
+                      !covers(reading.series, data.window_of(reading.sensor));
+    if (told) continue;
+    for (const std::string& remark : reading.comparison.remarks)
+      list.items.push_back(fmt::format("{}: {}: {}", run.key, reading.sensor, remark));
+  }
+}
+
 void add_warnings(ReportSection& section, const ReportData& data) {
   BulletList list;
   for (const AnalysedRun& run : data.runs) {
-    const auto& manifest = run.record.manifest;
-    if (manifest.contains("warnings") && manifest.at("warnings").is_array())
-      for (const auto& warning : manifest.at("warnings"))
-        if (warning.is_string()) list.items.push_back(run.key + ": " + warning.get<std::string>());
+    for (const std::string& warning : run.record.warnings()) list.items.push_back(run.key + ": " + warning);
     for (const std::string& problem : run.problems) list.items.push_back(run.key + ": " + problem);
+    add_missing_metrics(list, data, run);
   }
+  for (std::string& mixed : mixed_builds(data)) list.items.push_back(std::move(mixed));
   if (list.items.empty()) list.items.push_back("No run recorded a warning.");
   section.blocks.push_back(Paragraph{"**Warnings**"});
   section.blocks.push_back(std::move(list));

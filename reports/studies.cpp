@@ -101,14 +101,16 @@ std::vector<ResolutionSeries> resolution_series(const ReportData& data) {
                 method(data, a) == method(data, b);
        })) {
     std::stable_sort(runs.begin(), runs.end(), [](auto* a, auto* b) { return a->record.l0_m > b->record.l0_m; });
-    // Of two runs at one resolution the first stands for it: an order needs one value each.
-    runs.erase(std::unique(runs.begin(), runs.end(), [](auto* a, auto* b) { return a->record.l0_m == b->record.l0_m; }),
-               runs.end());
-    if (runs.size() < 2) continue;
+    ResolutionSeries series;
+    for (const AnalysedRun* run : runs) {
+      const bool new_distance = series.runs.empty() || series.runs.back()->record.l0_m != run->record.l0_m;
+      (new_distance ? series.runs : series.left_out).push_back(run);
+    }
+    if (series.runs.size() < 2) continue;
     const auto alpha = runs.front()->record.alpha();
-    out.push_back({runs.front()->group + (alpha ? fmt::format(", α = {}", shortest(*alpha)) : "") +
-                       parameters_text(changes(data, runs.front()->record)),
-                   runs});
+    series.title = runs.front()->group + (alpha ? fmt::format(", α = {}", shortest(*alpha)) : "") +
+                   parameters_text(changes(data, runs.front()->record));
+    out.push_back(std::move(series));
   }
   return out;
 }
@@ -288,6 +290,11 @@ const PublishedRun* published_run(const Case& c, const std::string& solver) {
   for (const PublishedRun& run : c.published.runs)
     if (run.solver == solver) return &run;
   return nullptr;
+}
+
+std::string published_distance(const ReportData& data, const std::string& solver) {
+  const PublishedRun* run = published_run(data.the_case, solver);
+  return run == nullptr ? "" : fmt::format(", l0 = {:g} mm", 1000 * run->l0_m);
 }
 
 }  // namespace sluice

@@ -25,6 +25,7 @@ std::vector<AlphaSeries> alpha_series(const ReportData& data);
 struct ResolutionSeries {
   std::string title;  ///< "WCSPH, extrapolated walls, α = 0.01"
   std::vector<const AnalysedRun*> runs;
+  std::vector<const AnalysedRun*> left_out;  ///< of two runs at one l0 the first stands for it
 };
 std::vector<ResolutionSeries> resolution_series(const ReportData& data);
 
@@ -69,5 +70,10 @@ std::optional<double> published_mean(const ReportData& data, const std::string& 
 
 /// The paper's run of a solver; nullptr when it prints none.
 const PublishedRun* published_run(const Case& c, const std::string& solver);
+/// ", l0 = 7.5 mm" of that run; "" when it prints none.
+std::string published_distance(const ReportData& data, const std::string& solver);
+
+/// What is compared as if one thing alone differed, and was made by several builds: one sentence for each study.
+std::vector<std::string> mixed_builds(const ReportData& data);
 
 }  // namespace sluice

@@ -1,5 +1,6 @@
 // The case's acceptance rows against every run: one matrix instead of a list a run.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +53,23 @@ std::vector<const AnalysedRun*> judged_runs(const ReportData& data) {
   return runs;
 }
 
+/// Why values are missing, each reason once a run.
+void add_reasons(Table& table, const ReportData& data) {
+  for (const AnalysedRun& run : data.runs) {
+    std::vector<std::string> reasons;
+    for (const AcceptanceCheck& check : run.acceptance)
+      if (check.verdict == AcceptanceVerdict::missing &&
+          std::find(reasons.begin(), reasons.end(), check.reason) == reasons.end())
+        reasons.push_back(check.reason);
+    if (!reasons.empty()) table.notes.push_back(fmt::format("Missing in {}: {}.", run.key, fmt::join(reasons, "; ")));
+  }
+}
+
 void add_acceptance_notes(Table& table, const ReportData& data, int rows_elsewhere) {
   table.notes.push_back(
       "n/a: not applicable, the row is not meant for that run (other walls, resolution or α). Values in the CSV are "
       "plain numbers: shares of one, seconds, particles.");
+  add_reasons(table, data);
   std::string unjudged;
   for (const AnalysedRun& run : data.runs)
     if (std::none_of(run.acceptance.begin(), run.acceptance.end(), speaks))
@@ -76,6 +90,7 @@ Table acceptance_matrix(const ReportData& data) {
   table.columns = {{"Quantity", "quantity", false}, {"Bound", "bound", false}};
   const std::vector<const AnalysedRun*> runs = judged_runs(data);
   for (const AnalysedRun* run : runs) table.columns.push_back({run->key, run->key});
+  table.columns.push_back({"Why this bound", "remark", false});
   int elsewhere = 0;
   std::string group;
   for (std::size_t i = 0; i < data.the_case.acceptance.size(); ++i) {
@@ -87,6 +102,7 @@ Table acceptance_matrix(const ReportData& data) {
     if (row_range(row) != group) table.add_group("For " + (group = row_range(row)));
     std::vector<TableCell> cells = {word(row_quantity(row)), word(acceptance_band_text(row))};
     for (const AnalysedRun* run : runs) cells.push_back(verdict_cell(run->acceptance[i]));
+    cells.push_back(word(row.remark));
     table.add(std::move(cells));
   }
   add_acceptance_notes(table, data, elsewhere);

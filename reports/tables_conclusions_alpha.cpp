@@ -53,15 +53,20 @@ Evidence judge_sides(const ReportData& data, const WallsScope& scope, double lim
   return ours;
 }
 
+bool is_alpha(double alpha, double stated) {
+  return std::abs(alpha / stated - 1) < 1e-9;
+}
+
 /// One quantity of a force in each series of runs that differ in alpha alone: "WCSPH ...: 1.2 N at 0.1, 1.5 N at 0.01".
 struct AlphaTrend {
   std::string words;
   std::vector<std::vector<std::pair<double, double>>> series;  ///< alpha and value, smallest alpha first
 };
 
+/// `needed`: series without a value at this alpha say nothing and are left out.
 template <class Measure>
 AlphaTrend alpha_trend(const ReportData& data, const WallsScope& scope, const std::string& sensor,
-                       const std::string& unit, Measure measure) {
+                       const std::string& unit, Measure measure, std::optional<double> needed = std::nullopt) {
   AlphaTrend trend;
   for (const AlphaSeries& runs : alpha_series(data, scope)) {
     std::vector<std::pair<double, double>> points;
@@ -74,7 +79,9 @@ AlphaTrend alpha_trend(const ReportData& data, const WallsScope& scope, const st
       words += fmt::format("{}{} {} at {}", words.empty() ? "" : ", ", significant(*value, 3), unit,
                            shortest(points.back().first));
     }
-    if (points.size() < 2) continue;
+    const bool has_needed = !needed || std::any_of(points.begin(), points.end(),
+                                                   [&](const auto& point) { return is_alpha(point.first, *needed); });
+    if (points.size() < 2 || !has_needed) continue;
     trend.words += fmt::format("{}{}: {}", trend.words.empty() ? "" : "; ", runs.title, words);
     trend.series.push_back(std::move(points));
   }
@@ -83,14 +90,14 @@ AlphaTrend alpha_trend(const ReportData& data, const WallsScope& scope, const st
 
 Evidence judge_best_force(const ReportData& data, const WallsScope& scope, const std::string& sensor) {
   constexpr double stated = 0.1;
-  const AlphaTrend trend =
-      alpha_trend(data, scope, sensor, "%", [](const Comparison& c) { return scaled(c.rmse_over_range, 100); });
+  const AlphaTrend trend = alpha_trend(
+      data, scope, sensor, "%", [](const Comparison& c) { return scaled(c.rmse_over_range, 100); }, stated);
   Evidence ours{trend.words.empty() ? "" : "RMSE / range " + trend.words, true,
                 data.measured_series(sensor) == nullptr};
   for (const auto& points : trend.series) {
     const auto best = std::min_element(points.begin(), points.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
-    ours.agrees = ours.agrees && std::abs(best->first / stated - 1) < 1e-9;
+    ours.agrees = ours.agrees && is_alpha(best->first, stated);
   }
   return ours;
 }

@@ -11,11 +11,6 @@ namespace sluice {
 
 namespace {
 
-std::optional<double> in_percent(std::optional<double> share) {
-  if (share) *share *= 100;
-  return share;
-}
-
 std::optional<double> measured_impulse(const ReportData& data, const std::string& sensor) {
   const MeasuredSeries* series = data.measured_series(sensor);
   return series == nullptr ? std::nullopt : impulse(*series, data.window_of(sensor));
@@ -30,8 +25,7 @@ const PublishedImpulse* find_published(const Published& published, const Publish
 
 std::string source_name(const PublishedImpulse& row) {
   if (row.source == "experiment") return "Paper: experiment, as printed";
-  const std::string solver = row.source == "wcsph" ? "WCSPH" : row.source == "mps" ? "MPS" : row.source;
-  return "Paper: " + solver + (row.alpha ? fmt::format(", α = {}", shortest(*row.alpha)) : "");
+  return "Paper: " + method_name(row.source) + (row.alpha ? fmt::format(", α = {}", shortest(*row.alpha)) : "");
 }
 
 void add_published_rows(Table& table, const ReportData& data, const std::vector<std::string>& sensors) {
@@ -114,8 +108,9 @@ Table paper_impulses_table(const ReportData& data) {
   const std::vector<std::string> sensors = data.headline_sensors();
   Table table;
   table.name = "table2_impulses";
+  const Window window = sensors.empty() ? data.window : data.window_of(sensors.front());
   table.caption = fmt::format("Pressure impulses {} to {} s and unsigned deviations, after the paper's Table {}",
-                              shortest(data.window.begin_s), shortest(data.window.end_s),
+                              shortest(window.begin_s), shortest(window.end_s),
                               std::max(2, data.the_case.published.impulses_table));
   table.columns = {{"Source", "source", false}, {"Sensor model", "model", false}};
   for (const std::string& sensor : sensors) {
@@ -127,7 +122,7 @@ Table paper_impulses_table(const ReportData& data) {
   add_published_rows(table, data, sensors);
   add_run_rows(table, data, sensors, [](const Pair& pair) {
     return std::vector<TableCell>{number(pair.simulated, 0),
-                                  number(in_percent(unsigned_relative_deviation(pair.simulated, pair.measured)), 1)};
+                                  number(scaled(unsigned_relative_deviation(pair.simulated, pair.measured), 100), 1)};
   });
   table.notes.push_back(
       "Deviations as in the paper: |simulated − measured| / measured. The signed ones stand in the next table. "
@@ -154,7 +149,7 @@ Table impulses_table(const ReportData& data, bool relative) {
     table.add(std::move(cells));
   }
   add_run_rows(table, data, sensors, [&](const Pair& pair) {
-    return std::vector<TableCell>{relative ? signed_number(in_percent(pair.deviation()), 1)
+    return std::vector<TableCell>{relative ? signed_number(scaled(pair.deviation(), 100), 1)
                                            : number(pair.simulated, 0)};
   });
   return table;

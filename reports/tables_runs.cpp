@@ -85,13 +85,9 @@ std::string span_of(const std::vector<double>& values, Show show) {
   return *low == *high ? show(*low) : show(*low) + " … " + show(*high);
 }
 
-std::string published_name(const PublishedRun& run) {
-  return run.solver == "wcsph" ? "WCSPH" : run.solver == "mps" ? "MPS" : run.solver;
-}
-
 void add_published_run(Table& table, const PublishedRun& run) {
   const double steps = run.t_end_s / run.dt_s;
-  const std::string label = "Paper: " + published_name(run);
+  const std::string label = "Paper: " + method_name(run.solver);
 
   const std::string radius = (run.solver == "mps" ? "re = " : "2h = ") + shortest(run.radius_over_l0) + " l0";
   table.add({word(label),
@@ -121,7 +117,7 @@ void add_published_notes(Table& table, const Published& published) {
                     "as they are: see Provenance for ours.",
                     published.cpu));
   for (const PublishedRun& run : published.runs) {
-    const std::string name = fmt::format("The paper's {}, l0 = {:g} mm", published_name(run), 1000 * run.l0_m);
+    const std::string name = fmt::format("The paper's {}, l0 = {:g} mm", method_name(run.solver), 1000 * run.l0_m);
     if (run.gpu_time_s)
       table.notes.push_back(fmt::format("{}, on a GPU ({}): {}.", name, published.gpu, duration(*run.gpu_time_s)));
     if (!run.remark.empty()) table.notes.push_back(fmt::format("{}: {}.", name, run.remark));

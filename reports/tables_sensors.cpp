@@ -69,7 +69,9 @@ Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_mod
                               shortest(window.end_s), all_models ? "every sensor model" : "primary readings");
   table.columns = metric_columns(kind);
   for (const std::string& sensor : sensors) {
-    table.add_group(sensor);
+    const Window own = data.window_of(sensor);
+    const bool alike = own.begin_s == window.begin_s && own.end_s == window.end_s;
+    table.add_group(alike ? sensor : fmt::format("{}, {} to {} s", sensor, shortest(own.begin_s), shortest(own.end_s)));
     if (const std::string remark = data.measured_remark(sensor); !remark.empty())
       table.notes.push_back(sensor + ": " + remark);
     bool measured_shown = false;
@@ -90,8 +92,8 @@ Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_mod
 
 namespace {
 
-/// Share of the samples after `from_s` whose support suffices for a reading.
-std::optional<double> share_seen(const AnalysedRun& run, const std::string& sensor, double from_s) {
+/// Share of the samples within a window whose support suffices for a reading.
+std::optional<double> share_seen(const AnalysedRun& run, const std::string& sensor, Window window) {
   const std::string column = sensor + "_kernel_support_1";
   if (!run.record.probes.has(column)) return std::nullopt;
   const std::vector<double>& support = run.record.probes.values(column);
@@ -99,7 +101,7 @@ std::optional<double> share_seen(const AnalysedRun& run, const std::string& sens
   std::size_t all = 0;
   std::size_t seen = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i] < from_s) continue;
+    if (times[i] < window.begin_s || times[i] > window.end_s) continue;
     ++all;
     seen += support[i] >= minimum_kernel_support;
   }
@@ -119,8 +121,10 @@ Table kernel_support_table(const ReportData& data) {
     std::vector<TableCell> cells = {word(run.label)};
     for (const std::string& sensor : sensors) {
       const MeasuredSeries* measured = data.measured_series(sensor);
-      const auto arrival = measured == nullptr ? std::nullopt : arrival_at_fraction_of_peak(*measured, data.window);
-      cells.push_back(number(scaled(arrival ? share_seen(run, sensor, *arrival) : std::nullopt, 100), 1));
+      const Window window = data.window_of(sensor);
+      const auto arrival = measured == nullptr ? std::nullopt : arrival_at_fraction_of_peak(*measured, window);
+      const auto seen = arrival ? share_seen(run, sensor, {*arrival, window.end_s}) : std::nullopt;
+      cells.push_back(number(scaled(seen, 100), 1));
     }
     table.add(std::move(cells));
   }

@@ -14,11 +14,6 @@ namespace sluice {
 
 namespace {
 
-std::optional<double> percent(std::optional<double> share) {
-  if (share) *share *= 100;
-  return share;
-}
-
 std::optional<double> impulse_deviation(const SensorReading* reading) {
   return reading == nullptr ? std::nullopt : reading->comparison.impulse.deviation();
 }
@@ -54,8 +49,8 @@ Table boundary_models_table(const ReportData& data) {
         std::vector<TableCell> cells = {word(run->label), word(run->record.walls), word(reading->remarked_model()),
                                         typed(run->record.alpha())};
         for (const std::string& sensor : sensors)
-          cells.push_back(signed_number(percent(impulse_deviation(run->find(sensor, reading->model))), 1));
-        cells.push_back(number(percent(mean_impulse_error(data, *run, reading->model)), 1));
+          cells.push_back(signed_number(scaled(impulse_deviation(run->find(sensor, reading->model)), 100), 1));
+        cells.push_back(number(scaled(mean_impulse_error(data, *run, reading->model), 100), 1));
         table.add(std::move(cells));
       }
     if (first->record.alpha()) add_published_deviations(table, data, *first->record.alpha());
@@ -76,8 +71,8 @@ Table alpha_table(const ReportData& data) {
     for (const AnalysedRun* run : series.runs) {
       std::vector<TableCell> cells = {word(run->label), typed(run->record.alpha())};
       for (const std::string& sensor : sensors)
-        cells.push_back(signed_number(percent(impulse_deviation(run->primary(sensor))), 1));
-      cells.push_back(number(percent(mean_impulse_error(data, *run)), 1));
+        cells.push_back(signed_number(scaled(impulse_deviation(run->primary(sensor)), 100), 1));
+      cells.push_back(number(scaled(mean_impulse_error(data, *run), 100), 1));
       table.add(std::move(cells));
     }
   }
@@ -129,30 +124,36 @@ Table resolution_table(const ReportData& data) {
       table.add(std::move(cells));
     }
   }
+  for (const ResolutionSeries& series : resolution_series(data))
+    for (const AnalysedRun* run : series.left_out)
+      table.notes.push_back(
+          fmt::format("{} is left out: another run at its particle distance stands for both.", run->key));
   return table;
 }
 
 namespace {
 
-/// The part of the window that the run's samples reach; nullopt when it reaches the end or hardly begins.
-std::optional<Window> covered_part(const ReportData& data, const AnalysedRun& run) {
+/// Up to when the run's samples reach [s]; nullopt when that is the whole window, or hardly its beginning.
+std::optional<double> early_end_s(const ReportData& data, const AnalysedRun& run) {
   const std::vector<double>& t = run.record.probes.times_s();
   constexpr double least_s = 0.5;
-  const double interval_s = 2 / data.the_case.output_rate_Hz;
-  if (t.size() < 2 || t.back() >= data.window.end_s - interval_s || t.back() < data.window.begin_s + least_s)
+  if (covers({t, t}, data.window) || t.empty() || t.back() < data.window.begin_s + least_s ||
+      t.back() >= data.window.end_s)
     return std::nullopt;
-  return Window{data.window.begin_s, t.back()};
+  return t.back();
 }
 
 std::optional<double> early_metric(const ReportData& data, const AnalysedRun& run, const std::string& sensor,
-                                   Window window) {
+                                   double end_s) {
+  const Window whole = data.window_of(sensor);
+  const Window window{whole.begin_s, std::min(whole.end_s, end_s)};
   const SensorReading* reading = run.primary(sensor);
   const MeasuredSeries* measured = data.measured_series(sensor);
   if (reading == nullptr || measured == nullptr) return std::nullopt;
   if (reading->kind == SensorKind::pressure || reading->kind == SensorKind::force)
     return relative_deviation(impulse(reading->series, window), impulse(*measured, window));
   const auto error = rmse(reading->series, *measured, window);
-  const auto spread = range(*measured, data.window);
+  const auto spread = range(*measured, whole);
   return error && spread && *spread > 0 ? std::optional<double>(*error / *spread) : std::nullopt;
 }
 
@@ -171,11 +172,11 @@ Table early_runs_table(const ReportData& data) {
     table.columns.push_back({sensor + " RMSE / range [%]", sensor + "_rmse_over_range_percent"});
   }
   for (const AnalysedRun& run : data.runs) {
-    const auto window = covered_part(data, run);
-    if (!window) continue;
-    std::vector<TableCell> cells = {word(run.label), number(window->end_s, 2)};
+    const auto end_s = early_end_s(data, run);
+    if (!end_s) continue;
+    std::vector<TableCell> cells = {word(run.label), number(*end_s, 2)};
     for (const std::string& sensor : sensors)
-      cells.push_back(signed_number(percent(early_metric(data, run, sensor, *window)), 1));
+      cells.push_back(signed_number(scaled(early_metric(data, run, sensor, *end_s), 100), 1));
     table.add(std::move(cells));
   }
   table.notes.push_back(

@@ -57,11 +57,10 @@ Table bias_table(const ReportData& data) {
     }
   }
   table.notes.push_back(
-      "A pair is one sensor of one run, primary reading, coarse and fine runs alike. Bias 1.10: predictions are 10 % "
-      "too "
-      "large in the mean; scatter: relative standard deviation about that (the FDS validation guide's form, ratios "
-      "taken "
-      "as log-normal). The experiment's own uncertainty is not known and counts as none, so that it is part of the "
+      "A pair is one sensor of one run, primary reading, coarse and fine runs alike; runs of other parameters than the "
+      "case's are a method of their own. Bias 1.10: predictions are 10 % too large in the mean; scatter: relative "
+      "standard deviation about that (the FDS validation guide's form, ratios taken as log-normal). The experiment's "
+      "own uncertainty is not known and counts as none, so that it is part of the "
       "scatter. Intervals by bootstrap over the pairs; pairs of one run are akin, which makes them somewhat too "
       "narrow.");
   return table;
@@ -122,7 +121,8 @@ void add_uncertainty_row(Table& table, const ReportData& data, const UncertainQu
   ValidationUncertainty v;
   v.error = *values.difference();
   v.of_resolution = numerical_uncertainty(quantity, series);
-  v.of_measurement = quantity.is_peak ? peak_uncertainty(*measured, window) : impulse_uncertainty(*measured, window);
+  if (const CaseSensor* sensor = data.the_case.find_sensor(quantity.sensor); sensor->measured_is_band)
+    v.of_measurement = quantity.is_peak ? peak_uncertainty(*measured, window) : impulse_uncertainty(*measured, window);
   table.add({word(quantity.name), rounded(values.simulated, 4), rounded(values.measured, 4), rounded(v.error, 3),
              rounded(v.of_resolution, 3), rounded(v.of_input, 3), rounded(v.of_measurement, 3), rounded(v.total(), 3),
              word(conclusion(v))});
@@ -151,11 +151,10 @@ Table validation_uncertainty_table(const ReportData& data) {
   }
   table.notes.push_back(
       "Standard uncertainties in the quantity's unit. u_num: grid convergence index over 1.15; missing where there are "
-      "not "
-      "three resolutions in the asymptotic range. u_D: from the band of measured points where the measurement is one, "
-      "each bin as wide as its points and all bins wrong the same way; missing for a single recording. u_input: no "
-      "case "
-      "states it. Where one is missing u_val is a lower bound.");
+      "not three resolutions in the asymptotic range. u_D: from the band of measured points where the case says that "
+      "the "
+      "measurement is one, each bin as wide as its points and all bins wrong the same way; missing for a single "
+      "recording. u_input: no case states it. Where one is missing u_val is a lower bound.");
   return table;
 }
 
@@ -189,17 +188,19 @@ std::vector<BestQuantity> best_quantities(const ReportData& data) {
 void add_best_row(Table& table, const AlphaSeries& series, const BestQuantity& quantity) {
   const AnalysedRun* best = nullptr;
   double least = 0;
+  int compared = 0;
   std::string all;
   for (const AnalysedRun* run : series.runs) {
     const SensorReading* reading = run->primary(quantity.sensor);
     const auto error = reading == nullptr ? std::nullopt : quantity.error(reading->comparison);
     if (!error) continue;
+    ++compared;
     all += fmt::format("{}{}: {}", all.empty() ? "" : ", ", shortest(*run->record.alpha()), fixed(*error, 1));
     if (best != nullptr && least <= *error) continue;
     best = run;
     least = *error;
   }
-  if (best == nullptr) return;
+  if (compared < 2) return;  // the only one is not the best
   table.add({word(quantity.name), typed(best->record.alpha()),
              rounded(best->record.number("equivalent_viscosity_m2_s"), 2), number(least, 1), word(all)});
 }

@@ -16,12 +16,11 @@ inline std::size_t column_of(const Table& table, const std::string& csv_name) {
   return 0;
 }
 
-/// The first row whose first cell begins with `start`, and whose second is `second` where one is given.
+/// The first row whose first cell begins with `start`, and whose second begins with `second`.
 inline const TableRow& row_of(const Table& table, const std::string& start, const std::string& second = "") {
   for (const TableRow& row : table.rows)
-    if (!row.is_group() && row.cells[0].text.starts_with(start) && (second.empty() || row.cells[1].text == second))
-      return row;
-  ADD_FAILURE() << "no row " << start << " in " << table.name;
+    if (!row.is_group() && row.cells[0].text.starts_with(start) && row.cells[1].text.starts_with(second)) return row;
+  ADD_FAILURE() << "no row " << start << ' ' << second << " in " << table.name;
   return table.rows.front();
 }
 

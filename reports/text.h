@@ -8,6 +8,11 @@
 
 namespace sluice {
 
+/// The paper's name of a method.
+inline std::string method_name(const std::string& solver) {
+  return solver == "wcsph" ? "WCSPH" : solver == "mps" ? "MPS" : solver;
+}
+
 /// A value in another unit; what is missing stays so.
 inline std::optional<double> scaled(std::optional<double> value, double factor) {
   if (value) *value *= factor;

@@ -1,0 +1,122 @@
+// What a report says of runs that are not to be trusted as they are, and of comparisons of what is not alike.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "reports/bias.h"
+#include "reports/studies.h"
+#include "reports/synthetic_run.h"
+#include "reports/tables.h"
+#include "reports/test_files.h"
+#include "reports/test_tables.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using synthetic::MadeForceRun;
+using test_files::fresh;
+
+void replace_in(const fs::path& file, const std::string& from, const std::string& to) {
+  std::string text = test_files::read(file);
+  const std::size_t at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  std::ofstream(file) << text.replace(at, from.size(), to);
+}
+
+bool any_has(const std::vector<std::string>& texts, const std::string& part) {
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const std::string& t) { return t.find(part) != std::string::npos; });
+}
+
+TEST(Doubts, AColumnThatNoSensorReadsIsNamedWithWhatWasMeant) {
+  const fs::path run = fresh("doubts_column");
+  synthetic::write_external_run(run, 1);
+  EXPECT_FALSE(any_has(analyse({run}).runs[0].problems, "belongs to no sensor"));
+  replace_in(run / "probes.csv", "P1_Pa", "P1_kPa");
+  EXPECT_TRUE(any_has(analyse({run}).runs[0].problems,
+                      "column P1_kPa belongs to no sensor of the case and is not read (did you mean P1_Pa?)"));
+}
+
+TEST(Doubts, SeveralModelsOfWhichNoneIsToBeJudgedAreNamed) {
+  const fs::path run = fresh("doubts_models");
+  synthetic::write_external_run(run, 1);
+  replace_in(run / "probes.csv", "P1_Pa", "P1_wall_Pa");
+  EXPECT_FALSE(any_has(analyse({run}).runs[0].problems, "none of them the one to be judged")) << "the only one is";
+  std::string text = test_files::read(run / "probes.csv");
+  std::string doubled;
+  for (std::size_t at = 0, row = 0; at < text.size(); ++row) {
+    const std::size_t end = text.find('\n', at);
+    doubled += text.substr(at, end - at) + (row == 0 ? ",P1_kernel_Pa\n" : ",0\n");
+    at = end + 1;
+  }
+  std::ofstream(run / "probes.csv") << doubled;
+  EXPECT_TRUE(any_has(analyse({run}).runs[0].problems, "P1 has columns of 2 models, none of them"));
+}
+
+TEST(Doubts, ARunWithAGapSaysWhereAndHasNoImpulse) {
+  const fs::path run = fresh("doubts_gap");
+  synthetic::write_external_run(run, 1);
+  std::istringstream rows(test_files::read(run / "probes.csv"));
+  std::string line;
+  std::getline(rows, line);
+  std::string kept = line + '\n';
+  while (std::getline(rows, line))
+    if (const double t_s = std::stod(line); t_s < 0.4 || t_s > 0.7) kept += line + '\n';
+  std::ofstream(run / "probes.csv") << kept;
+  const ReportData data = analyse({run});
+  EXPECT_TRUE(any_has(data.runs[0].problems, "has no rows between 0.39")) << data.runs[0].problems.front();
+  EXPECT_FALSE(data.runs[0].primary("P1")->comparison.impulse.simulated);
+}
+
+std::vector<fs::path> three_distances(const std::string& name) {
+  std::vector<fs::path> directories;
+  MadeForceRun run;
+  for (const double l0_m : {0.02, 0.0125, 0.01}) {
+    run.l0_m = l0_m;
+    directories.push_back(fresh(name + std::to_string(directories.size())));
+    synthetic::write_force_run(directories.back(), run);
+  }
+  return directories;
+}
+
+TEST(Doubts, AStudyOfRunsOfSeveralBuildsSaysSo) {
+  const auto directories = three_distances("doubts_builds");
+  EXPECT_TRUE(mixed_builds(analyse(directories)).empty());
+  nlohmann::json manifest = nlohmann::json::parse(test_files::read(directories[1] / "run.json"));
+  manifest["commit"] = "abcdef0123456789";
+  std::ofstream(directories[1] / "run.json") << manifest;
+  const auto texts = mixed_builds(analyse(directories));
+  ASSERT_EQ(texts.size(), 1u);
+  EXPECT_TRUE(texts[0].starts_with("The study of resolution (")) << texts[0];
+  EXPECT_TRUE(any_has(texts, "abcdef012345 (R2)")) << texts[0];
+}
+
+TEST(Doubts, OfTwoRunsAtOneDistanceTheSecondIsNamedAsLeftOut) {
+  auto directories = three_distances("doubts_double");
+  directories.push_back(fresh("doubts_double_again"));
+  MadeForceRun run;
+  run.l0_m = 0.01;
+  synthetic::write_force_run(directories.back(), run);
+  const Table table = resolution_table(analyse(directories));
+  EXPECT_TRUE(any_has(table.notes, "is left out: another run at its particle distance"));
+}
+
+TEST(Doubts, AnAblationIsAMethodOfItsOwnInBiasAndScatter) {
+  MadeForceRun run;
+  const fs::path plain = fresh("doubts_bias");
+  const fs::path cut = fresh("doubts_bias_cut");
+  synthetic::write_force_run(plain, run);
+  run.parameters = {{"delta", 0.0}};
+  synthetic::write_force_run(cut, run);
+  const auto quantities = bias_quantities(analyse({plain, cut}));
+  ASSERT_FALSE(quantities.empty());
+  ASSERT_EQ(quantities[0].methods.size(), 2u);
+  EXPECT_NE((quantities[0].methods[0].name + quantities[0].methods[1].name).find("delta = 0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sluice

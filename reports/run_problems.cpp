@@ -1,0 +1,115 @@
+#include "reports/run_problems.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "reports/text.h"
+#include "validation/suggest.h"
+
+namespace sluice {
+
+namespace {
+
+using Problems = std::vector<std::string>;
+
+void note_ending(Problems& problems, const RunRecord& record) {
+  if (record.status() == "running") problems.push_back("still running when the report was made");
+  if (record.status() == "interrupted") problems.push_back("interrupted before its end");
+  if (record.status() == "failed") problems.push_back("failed: " + record.text("error").value_or("no reason recorded"));
+}
+
+void note_other_case(Problems& problems, const RunRecord& record, const Case& c) {
+  if (const auto hash = record.text("case_hash"); hash && *hash != c.hash)
+    problems.push_back(
+        fmt::format("made with another version of the case file ({}; this report reads {})", *hash, c.hash));
+}
+
+void note_coverage(Problems& problems, const RunRecord& record, const ReportData& data) {
+  constexpr double longest_run = 100;  // over the case's; milliseconds under the name of seconds
+  const std::vector<double>& times = record.probes.times_s();
+  if (times.empty())
+    problems.push_back("probes.csv has no rows");
+  else if (const std::string remark = coverage_remark({times, times}, data.window); !remark.empty())
+    problems.push_back(remark + ": what needs the whole window is missing");
+  else if (times.back() > longest_run * data.the_case.t_end_s)
+    problems.push_back(fmt::format("ends at {} s, the case at {} s: are its times in s?", significant(times.back(), 2),
+                                   significant(data.the_case.t_end_s, 2)));
+}
+
+/// Columns that no sensor reads and that have a use all the same.
+bool is_known_without_sensor(const std::string& column) {
+  static constexpr std::array<std::string_view, 3> totals{"kinetic_energy_J", "potential_energy_J",
+                                                          "greatest_density_ratio_1"};
+  return std::find(totals.begin(), totals.end(), column) != totals.end() || column.ends_with("_kernel_support_1");
+}
+
+/// Of another code: names that are not a sensor's would else be missing in every table without a word.
+void note_unread_columns(Problems& problems, const AnalysedRun& run, const Case& c) {
+  constexpr std::size_t most = 5;
+  if (run.record.own) return;
+  Problems unread;
+  for (const std::string& column : run.record.probes.names()) {
+    const bool read = std::any_of(c.sensors.begin(), c.sensors.end(),
+                                  [&](const CaseSensor& sensor) { return model_of(column, sensor).has_value(); });
+    if (!read && !is_known_without_sensor(column)) unread.push_back(column);
+  }
+  std::vector<std::string> known;
+  for (const CaseSensor& sensor : c.sensors) known.push_back(probe_column(sensor));
+  for (std::size_t i = 0; i < std::min(most, unread.size()); ++i) {
+    const auto meant = closest(unread[i], known);
+    problems.push_back(fmt::format("column {} belongs to no sensor of the case and is not read{}", unread[i],
+                                   meant ? fmt::format(" (did you mean {}?)", *meant) : ""));
+  }
+  if (unread.size() > most) problems.push_back(fmt::format("{} more columns are not read", unread.size() - most));
+}
+
+void note_nothing_primary(Problems& problems, const AnalysedRun& run, const Case& c) {
+  for (const CaseSensor& sensor : c.sensors)
+    if (const auto readings = run.of(sensor.name); !readings.empty() && run.primary(sensor.name) == nullptr)
+      problems.push_back(
+          fmt::format("{} has columns of {} models, none of them the one to be judged (name it in run.json: "
+                      "\"sensors\": {{ \"{}\": {{ \"primary\": \"{}\" }} }})",
+                      sensor.name, readings.size(), sensor.name, readings.front()->model));
+}
+
+/// Pressures in kPa under the name of Pa, heights in millimetres: off by a factor that no physics explains.
+void note_doubtful_units(Problems& problems, const AnalysedRun& run, const ReportData& data) {
+  constexpr double too_much = 150;
+  for (const SensorReading& reading : run.readings) {
+    const MeasuredSeries* measured = data.measured_series(reading.sensor);
+    if (!reading.primary || reading.warning_only || measured == nullptr || measured->maximum.empty() ||
+        reading.series.value.empty())
+      continue;
+    const double ratio = *std::max_element(reading.series.value.begin(), reading.series.value.end()) /
+                         *std::max_element(measured->maximum.begin(), measured->maximum.end());
+    if (ratio > too_much || (ratio > 0 && ratio < 1 / too_much))
+      problems.push_back(fmt::format("{} peaks at {} times the measured value: is its unit {}?", reading.sensor,
+                                     significant(ratio, 2), reading.comparison.unit));
+  }
+}
+
+void note_lost(Problems& problems, const RunRecord& record) {
+  if (record.number("lost.through_walls").value_or(0) > 0)
+    problems.push_back(fmt::format("fluid particles that went through a wall, an error of the method: {}",
+                                   grouped(std::llround(*record.number("lost.through_walls")))));
+}
+
+}  // namespace
+
+std::vector<std::string> run_problems(const AnalysedRun& run, const ReportData& data) {
+  Problems problems;
+  note_ending(problems, run.record);
+  note_other_case(problems, run.record, data.the_case);
+  note_coverage(problems, run.record, data);
+  note_unread_columns(problems, run, data.the_case);
+  note_nothing_primary(problems, run, data.the_case);
+  note_doubtful_units(problems, run, data);
+  note_lost(problems, run.record);
+  return problems;
+}
+
+}  // namespace sluice

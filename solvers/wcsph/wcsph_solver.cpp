@@ -19,10 +19,12 @@ void apply_equation_of_state(Particles<Pack>& p, std::size_t i, const PairConsta
   p.sound[i] = tait_speed_of_sound(p.density[i], c.tait);
 }
 
-/// The components in which `now` is not what it was, of `now`; the others of `before`. So the leap over a step at which
-/// a particle was held neither brings back what the wall took, nor counts twice what moves it along the wall.
-Vec3d with_changes(const Vec3d& before, const Vec3d& was, const Vec3d& now) {
-  return {now.x == was.x ? before.x : now.x, now.y == was.y ? before.y : now.y, now.z == was.z ? before.z : now.z};
+/// The velocity from which the next leap starts, of a particle that was held: `now` where the wall has taken something
+/// (`was`), else `now` less what the step has added, as after a restart. So the leap neither brings back what the wall
+/// took, nor counts twice what moves the particle along the wall.
+Vec3d before_held(const Vec3d& was, const Vec3d& now, const Vec3d& added) {
+  return {now.x == was.x ? now.x - added.x : now.x, now.y == was.y ? now.y - added.y : now.y,
+          now.z == was.z ? now.z - added.z : now.z};
 }
 
 }  // namespace
@@ -61,7 +63,7 @@ void WcsphSolver<Pack>::advance(double dt_s) {
   if (parameters_.walls == WallModel::dynamic) advance_wall_density(walls_, dt_s, form, threads_);
   if (parameters_.walls == WallModel::extrapolated) {
     // Who is set back on the way that it came has moved less; who falls from the rim behind a wall, more.
-    if (const double set_back_m = hold_at_walls(); set_back_m > moved_m) travel_m_ += set_back_m;
+    if (const double set_back_m = hold_at_walls(dt_s); set_back_m > moved_m) travel_m_ += set_back_m;
   }
 }
 
@@ -78,7 +80,7 @@ void WcsphSolver<Pack>::move_walls(double dt_s) {
 /// Extrapolated pressures alone let particles slip between wall particles: in a thin film some of a thousand at every
 /// step. Dynamic walls are left to leak, as the paper's do. Returns how far the farthest was set back [m].
 template <class Pack>
-double WcsphSolver<Pack>::hold_at_walls() {
+double WcsphSolver<Pack>::hold_at_walls(double dt_s) {
   const auto n = static_cast<std::int64_t>(fluid_.n);
   std::int64_t held = 0;
   double farthest2 = 0;
@@ -92,7 +94,7 @@ double WcsphSolver<Pack>::hold_at_walls() {
     if (!tank_.hold(held_at, held_u)) continue;
     fluid_.position.set(i, held_at);
     fluid_.velocity.set(i, held_u);
-    fluid_.velocity_previous.set(i, with_changes(fluid_.velocity_previous.template at<double>(i), u, held_u));
+    fluid_.velocity_previous.set(i, before_held(u, held_u, dt_s * fluid_.acceleration.template at<double>(i)));
     farthest2 = std::max(farthest2, dot(held_at - at, held_at - at));
     ++held;
   }

@@ -73,7 +73,7 @@ class WcsphSolver final : public Solver {
   StepLimits sum_rates();
   void advance(double dt_s);
   void move_walls(double dt_s);
-  double hold_at_walls();
+  double hold_at_walls(double dt_s);
   void sort_if_due(bool at_once = false);
   void update_fluid_state();
   void update_walls();

@@ -179,7 +179,7 @@ ProbeTable joined(const ForeignMap& map, std::vector<ProbeTable> tables, std::ve
     all = {std::min(all.begin_s, t.times_s().front()), std::max(all.end_s, t.times_s().back())};
     shared = {std::max(shared.begin_s, t.times_s().front()), std::min(shared.end_s, t.times_s().back())};
   }
-  const std::vector<double> times = all_times(tables, shared);
+  std::vector<double> times = all_times(tables, shared);
   if (times.empty())
     throw std::runtime_error(fmt::format(
         "{}: its files have no time in common (are the units and offsets of time right?)", map.map.string()));

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <stdexcept>
+#include <string>
 
 #include "reports/document.h"
 #include "reports/sections.h"
@@ -40,10 +40,14 @@ void write_tables(const ReportDocument& document, const std::filesystem::path& f
 void remove_last_report(const std::filesystem::path& out) {
   std::ifstream in(out / "report.md");
   const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  static const std::regex link(R"(\]\(((?:tables|figures)/[A-Za-z0-9_.-]+)\))");
   std::error_code ignored;
-  for (std::sregex_iterator found(page.begin(), page.end(), link), end; found != end; ++found)
-    std::filesystem::remove(out / (*found)[1].str(), ignored);
+  for (const char* folder : {"](tables/", "](figures/"}) {
+    for (std::size_t at = page.find(folder); at != std::string::npos; at = page.find(folder, at + 1)) {
+      const std::size_t begin = at + 2;
+      const std::string file = page.substr(begin, page.find(')', begin) - begin);
+      if (file.find("..") == std::string::npos) std::filesystem::remove(out / file, ignored);
+    }
+  }
 }
 
 std::string subtitle(const ReportData& data) {

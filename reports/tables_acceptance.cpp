@@ -87,10 +87,9 @@ Table acceptance_matrix(const ReportData& data) {
   Table table;
   table.name = "acceptance";
   table.caption = "Acceptance rows of the case, evaluated for each run";
-  table.columns = {{"Quantity", "quantity", false}, {"Bound", "bound", false}};
+  table.columns = {{"Quantity", "quantity", false}, {"Bound", "bound", false}, {"Why this bound", "remark", false}};
   const std::vector<const AnalysedRun*> runs = judged_runs(data);
   for (const AnalysedRun* run : runs) table.columns.push_back({run->key, run->key});
-  table.columns.push_back({"Why this bound", "remark", false});
   int elsewhere = 0;
   std::string group;
   for (std::size_t i = 0; i < data.the_case.acceptance.size(); ++i) {
@@ -100,9 +99,8 @@ Table acceptance_matrix(const ReportData& data) {
       continue;
     }
     if (row_range(row) != group) table.add_group("For " + (group = row_range(row)));
-    std::vector<TableCell> cells = {word(row_quantity(row)), word(acceptance_band_text(row))};
+    std::vector<TableCell> cells = {word(row_quantity(row)), word(acceptance_band_text(row)), word(row.remark)};
     for (const AnalysedRun* run : runs) cells.push_back(verdict_cell(run->acceptance[i]));
-    cells.push_back(word(row.remark));
     table.add(std::move(cells));
   }
   add_acceptance_notes(table, data, elsewhere);

@@ -100,8 +100,9 @@ Table resolution_table(const ReportData& data) {
   table.caption = data.has(SensorKind::force) ? "Errors and forces against the particle distance, primary readings"
                                               : "Errors against the particle distance, primary readings";
   table.columns = {{"Quantity", "quantity", false}};
+  const std::vector<ResolutionSeries> all_series = resolution_series(data);
   std::vector<double> distances;
-  for (const ResolutionSeries& series : resolution_series(data))
+  for (const ResolutionSeries& series : all_series)
     for (const AnalysedRun* run : series.runs)
       if (std::find(distances.begin(), distances.end(), run->record.l0_m) == distances.end())
         distances.push_back(run->record.l0_m);
@@ -109,7 +110,7 @@ Table resolution_table(const ReportData& data) {
   for (double l0 : distances)
     table.columns.push_back({fmt::format("l0 = {:g} mm", 1000 * l0), fmt::format("l0_{:g}_mm", 1000 * l0)});
   table.columns.push_back({"Observed order of the value", "observed_order", false});
-  for (const ResolutionSeries& series : resolution_series(data)) {
+  for (const ResolutionSeries& series : all_series) {
     table.add_group(series.title);
     for (const ResolutionQuantity& quantity : resolution_quantities(data, series)) {
       std::vector<TableCell> cells = {word(quantity.name)};
@@ -124,7 +125,7 @@ Table resolution_table(const ReportData& data) {
       table.add(std::move(cells));
     }
   }
-  for (const ResolutionSeries& series : resolution_series(data))
+  for (const ResolutionSeries& series : all_series)
     for (const AnalysedRun* run : series.left_out)
       table.notes.push_back(
           fmt::format("{} is left out: another run at its particle distance stands for both.", run->key));

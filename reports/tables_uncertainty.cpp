@@ -152,8 +152,7 @@ Table validation_uncertainty_table(const ReportData& data) {
   table.notes.push_back(
       "Standard uncertainties in the quantity's unit. u_num: grid convergence index over 1.15; missing where there are "
       "not three resolutions in the asymptotic range. u_D: from the band of measured points where the case says that "
-      "the "
-      "measurement is one, each bin as wide as its points and all bins wrong the same way; missing for a single "
+      "the measurement is one, each bin as wide as its points and all bins wrong the same way; missing for a single "
       "recording. u_input: no case states it. Where one is missing u_val is a lower bound.");
   return table;
 }

@@ -30,6 +30,12 @@ struct Cloud {
       z.push_back(old.z[static_cast<std::size_t>(k)]);
     }
   }
+  /// Each by up to `by` along every axis.
+  void wander(double by) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> step(-by, by);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += step(random), y[i] += step(random), z[i] += step(random);
+  }
   Vec3d at(std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
@@ -66,14 +72,11 @@ TEST(RowIndex, StillFindsThemAfterTheAllowedTravel) {
   RowIndex index({domain, 0.09, travel, 0.015});
   index.sort(cloud.x, cloud.y, cloud.z, {}, 1);
   cloud.follow(index.order());
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> step(-travel / 1.8, travel / 1.8);
   const RowGeometry& geometry = index.geometry();
   std::vector<RowIndex::Row> row;
-  for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+  for (std::size_t i = 0; i < cloud.x.size(); ++i)
     row.push_back(index.row_search(geometry.row_y(cloud.y[i]), geometry.row_z(cloud.z[i])));
-    cloud.x[i] += step(random), cloud.y[i] += step(random), cloud.z[i] += step(random);
-  }
+  cloud.wander(travel / 1.8);
   for (std::size_t i = 0; i < 300; ++i) expect_all_found(index, cloud, cloud.at(i * 10), travel);
   // A particle that has left the row it was sorted into is looked up by that row.
   for (std::size_t i = 0; i < cloud.x.size(); i += 10) {
@@ -92,10 +95,7 @@ TEST(RowIndex, ForwardRunsMeetEveryPairOnce) {
   index.sort(cloud.x, cloud.y, cloud.z, {}, 1);
   cloud.follow(index.order());
   const Cloud sorted = cloud;
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> step(-travel / 1.8, travel / 1.8);
-  for (std::size_t i = 0; i < cloud.x.size(); ++i)
-    cloud.x[i] += step(random), cloud.y[i] += step(random), cloud.z[i] += step(random);
+  cloud.wander(travel / 1.8);
   std::set<std::pair<std::size_t, std::size_t>> met;
   const RowGeometry& g = index.geometry();
   for (std::size_t i = 0; i < cloud.x.size(); ++i) {

@@ -196,7 +196,7 @@ TEST_F(CampaignTest, WhereNothingHasRunYetTheFirstStepsTellTheRate) {
   const Campaign c = load(group + "t_end_s = 600\n");
   const std::vector<RunCost> probed = probe_costs(c, false, {});
   ASSERT_EQ(probed.size(), 1U) << "one for both particle distances";
-  EXPECT_GE(probed[0].steps, 1) << "how many fit into a second is the machine's affair";
+  EXPECT_GE(probed[0].steps, 5);
   const double rate = probed[0].fluid * probed[0].steps / probed[0].wall_time_s;
   const Plan constants = plan_run(c.case_of(c.runs[1]), c.runs[1].settings);
   const Plan plan = estimate(c, c.runs[1], probed).plan;

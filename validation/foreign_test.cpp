@@ -118,18 +118,17 @@ columns = [ { sensor = "P2", column = "3", unit = "hPa" } ]
   EXPECT_THAT(t.values("P2_Pa"), ElementsAre(100, 200));
 }
 
+/// A map's entry for a file of times `t` and one column.
+std::string mapped(const std::string& file, const std::string& time_unit, const std::string& sensor,
+                   const std::string& column, const std::string& unit) {
+  return "[[files]]\nfile = \"" + file + "\"\ntime = { column = \"t\", unit = \"" + time_unit +
+         "\" }\ncolumns = [ { sensor = \"" + sensor + "\", column = \"" + column + "\", unit = \"" + unit + "\" } ]\n";
+}
+
 TEST_F(ForeignTest, SeveralFilesMeetAtAllTheirTimes) {
   write("a.csv", "t,p\n0,1\n1,2\n2,3\n3,4\n");
   write("b.csv", "t,h\n0.5,10\n2.5,30\n");
-  const ProbeTable t = read(R"([[files]]
-file = "a.csv"
-time = { column = "t", unit = "s" }
-columns = [ { sensor = "P1", column = "p", unit = "Pa" } ]
-[[files]]
-file = "b.csv"
-time = { column = "t", unit = "s" }
-columns = [ { sensor = "H1", column = "h", unit = "mm" } ]
-)");
+  const ProbeTable t = read(mapped("a.csv", "s", "P1", "p", "Pa") + mapped("b.csv", "s", "H1", "h", "mm"));
   EXPECT_THAT(t.times_s(), ElementsAre(0.5, 1, 2, 2.5));
   EXPECT_THAT(t.values("P1_Pa"), ElementsAre(1.5, 2, 3, 3.5));
   EXPECT_NEAR(t.values("H1_m")[1], 0.015, 1e-12);
@@ -142,15 +141,7 @@ columns = [ { sensor = "H1", column = "h", unit = "mm" } ]
 TEST_F(ForeignTest, NoSampleOfAFinerFileIsLost) {
   write("a.csv", "t,h\n0,10\n50,20\n100,30\n");
   write("b.csv", "t,p\n0,0\n0.02,0\n0.021,9000\n0.022,0\n0.05,0\n0.1,0\n");
-  const ProbeTable t = read(R"([[files]]
-file = "a.csv"
-time = { column = "t", unit = "ms" }
-columns = [ { sensor = "H1", column = "h", unit = "mm" } ]
-[[files]]
-file = "b.csv"
-time = { column = "t", unit = "s" }
-columns = [ { sensor = "P1", column = "p", unit = "Pa" } ]
-)");
+  const ProbeTable t = read(mapped("a.csv", "ms", "H1", "h", "mm") + mapped("b.csv", "s", "P1", "p", "Pa"));
   EXPECT_EQ(t.rows(), 6U) << "0.05 s and 50 ms are one time";
   EXPECT_EQ(t.values("P1_Pa")[2], 9000);
   EXPECT_NEAR(t.values("H1_m")[2], 0.0142, 1e-12);

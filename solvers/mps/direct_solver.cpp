@@ -28,13 +28,14 @@ struct DirectSolver::Factor {
   }
   Factor(const Factor&) = delete;
   Factor& operator=(const Factor&) = delete;
-  template <class Real>
-  void take_upper_triangle(const PressureMatrix<Real>& A);
   ~Factor() {
     cholmod_free_factor(&factor, &common);
     for (cholmod_dense** d : {&right_side, &solution, &work_y, &work_e}) cholmod_free_dense(d, &common);
     cholmod_finish(&common);
   }
+
+  template <class Real>
+  void take_upper_triangle(const PressureMatrix<Real>& A);
 };
 
 DirectSolver::DirectSolver() : factor_(std::make_unique<Factor>()) {}

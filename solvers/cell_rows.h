@@ -32,6 +32,7 @@ constexpr std::size_t rows_around = (2 * reach_rows + 1) * (2 * reach_rows + 1);
 using Runs = std::array<Run, rows_around>;
 /// The first of them: with the own row's from the particle on, they visit every pair once.
 using ForwardRuns = std::array<Run, (rows_around + 1) / 2>;
+using ForwardStarts = std::array<std::int32_t, std::tuple_size_v<ForwardRuns>>;
 
 /// The geometry of rows and slices over a domain.
 struct RowGeometry {
@@ -95,6 +96,12 @@ class RowIndex {
   Runs neighbours(const Vec3d& point_m, const Row& row, double travel_m) const;
   /// The own row and those that come after it: further along y by up to reach_rows, or at the same y and higher.
   ForwardRuns forward(const Vec3d& point_m, const Row& row, double travel_m) const;
+  /// The first particle of a slice in each of the rows of forward(), or what follows the row's last (slice = nx).
+  ForwardStarts forward_starts(const Row& row, std::int32_t slice) const {
+    ForwardStarts starts;
+    for (std::size_t k = 0; k < starts.size(); ++k) starts[k] = row.start[stencil_.base[k] + slice];
+    return starts;
+  }
 
   /// Whether a particle may come within the kernel's radius of a point before the next sort. May say yes for one that
   /// stays a little beyond it, never no for one that does not.

@@ -42,7 +42,7 @@ void sum_fluid_pairs(const Target<Pack>& i, Particles<Pack>& fluid, const PackLi
   Pack largest = largest_mu;
   for (const PackOfRun& pack : packs) {
     const auto at = static_cast<std::size_t>(pack.begin);
-    const auto window = L::window(pack.count);
+    const auto window = L::window(pack.writable);
     const Pairs<Pack> p = pairs(i.x, fluid, pack, c);
     const Neighbours<Pack> j(fluid, at);
     const Pack g = wendland_gradient_shape(p.taper);
@@ -99,9 +99,12 @@ class RunSums {
           const PairConstants<Pack>& constants)
       : fluid_(fluid), neighbours_(fluid_neighbours), walls_(walls), c_(constants) {}
 
-  void sum(const Run& targets, std::int32_t row_y, std::int32_t row_z) {
+  /// Sums for particles of one row. Terms of zero may be added to whatever lies before free_slice in the rows that are
+  /// reached.
+  void sum(const Run& targets, std::int32_t row_y, std::int32_t row_z, std::int32_t free_slice) {
     const auto end = static_cast<std::size_t>(targets.end);
     const RowIndex::Row search = neighbours_.index.row_search(row_y, row_z);
+    free_ends_ = neighbours_.index.forward_starts(search, free_slice);
     if (targets.begin < targets.end) list(static_cast<std::size_t>(targets.begin), search);
     for (auto i = static_cast<std::size_t>(targets.begin); i < end; ++i) {
       if (i + 1 < end) list(i + 1, search);
@@ -115,7 +118,7 @@ class RunSums {
     const Vec3d x = fluid_.position.template at<double>(i);
     ForwardRuns runs = neighbours_.index.forward(x, search, neighbours_.travel_m);
     runs.front().begin = static_cast<std::int32_t>(i) + 1;
-    packs_[i % 2].list(runs);
+    packs_[i % 2].list(runs, free_ends_);
     wall_packs_[i % 2].clear();
     if (walls_.proximity.any_near(x)) {
       wall_packs_[i % 2].list(walls_.sorted.index.neighbours(x, walls_.sorted.travel_m));
@@ -138,6 +141,7 @@ class RunSums {
   const PairConstants<Pack> c_;
   std::array<PackList<Pack>, 2> packs_;
   std::array<PackList<Pack>, 2> wall_packs_;
+  ForwardStarts free_ends_{};
   Pack largest_mu_{0};
 };
 
@@ -159,6 +163,9 @@ struct Blocks {
     const std::int32_t n = of(along_x, 2, colour % 2);
     return {colour / 2 + y_colours * (b / n), length * (colour % 2 + 2 * (b % n))};
   }
+  /// The first slice that a block which begins at `slice` must leave to the next one of its colour: the middle between
+  /// them, which neither reaches.
+  std::int32_t free_slice(std::int32_t slice) const { return std::min(slice + length + length / 2, g.nx); }
   /// How many of 0 .. n - 1 are `rest` modulo `divisor`.
   static std::int32_t of(std::int32_t n, std::int32_t divisor, std::int32_t rest) {
     return (n - rest + divisor - 1) / divisor;
@@ -214,7 +221,8 @@ StepLimits sum_fluid_rates(Particles<Pack>& fluid, const Sorted<Pack>& fluid_nei
         const auto [slab, slice] = blocks.place(colour, b);
         for (std::int32_t z = 0; z < geometry.nz; ++z) {
           const std::int32_t row = z * geometry.ny + slab;
-          sums.sum(fluid_neighbours.index.slices(row, slice, std::min(slice + blocks.length, geometry.nx)), slab, z);
+          const Run targets = fluid_neighbours.index.slices(row, slice, std::min(slice + blocks.length, geometry.nx));
+          sums.sum(targets, slab, z, blocks.free_slice(slice));
         }
       }
     }

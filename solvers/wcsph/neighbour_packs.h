@@ -15,6 +15,7 @@ namespace sluice::wcsph {
 struct PackOfRun {
   std::int32_t begin;
   std::int32_t count;
+  std::int32_t writable;  ///< lanes that may be written: `count`, or all where what lies behind is free too
 };
 
 /// The packs of a particle's runs. They are listed first, so that the loop over pairs has one exit a particle instead
@@ -26,17 +27,15 @@ class PackList {
   void clear() { size_ = 0; }
   bool empty() const { return size_ == 0; }
 
+  /// Packs that are read only.
   void list(std::span<const Run> runs) {
     clear();
-    for (const Run& run : runs) {
-      if (packs_.size() < size_ + at_once) packs_.resize(2 * packs_.size());
-      const std::int32_t length = run.end - run.begin;
-      for (std::int32_t m = 0; m < at_once; ++m) {
-        packs_[size_ + static_cast<std::size_t>(m)] = {run.begin + m * width, std::min(width, length - m * width)};
-      }
-      size_ += static_cast<std::size_t>(std::min(at_once, (length + width - 1) / width));
-      if (length > at_once * width) append_rest(run);
-    }
+    for (const Run& run : runs) append(run, run.end);
+  }
+  /// Packs that may be written, each run's as far as the particle before its end in `ends`.
+  void list(std::span<const Run> runs, std::span<const std::int32_t> ends) {
+    clear();
+    for (std::size_t k = 0; k < runs.size(); ++k) append(runs[k], ends[k]);
   }
   const PackOfRun* begin() const { return packs_.data(); }
   const PackOfRun* end() const { return packs_.data() + size_; }
@@ -45,10 +44,23 @@ class PackList {
   static constexpr std::int32_t width = Lanes<Pack>::width;
   static constexpr std::int32_t at_once = 4;
 
-  void append_rest(const Run& run) {
+  static PackOfRun pack(const Run& run, std::int32_t begin, std::int32_t writable_end) {
+    const std::int32_t count = std::min(width, run.end - begin);
+    return {begin, count, begin + width <= writable_end ? width : count};
+  }
+  void append(const Run& run, std::int32_t writable_end) {
+    if (packs_.size() < size_ + at_once) packs_.resize(2 * packs_.size());
+    const std::int32_t length = run.end - run.begin;
+    for (std::int32_t m = 0; m < at_once; ++m) {
+      packs_[size_ + static_cast<std::size_t>(m)] = pack(run, run.begin + m * width, writable_end);
+    }
+    size_ += static_cast<std::size_t>(std::min(at_once, (length + width - 1) / width));
+    if (length > at_once * width) append_rest(run, writable_end);
+  }
+  void append_rest(const Run& run, std::int32_t writable_end) {
     for (std::int32_t k = run.begin + at_once * width; k < run.end; k += width) {
       if (packs_.size() == size_) packs_.resize(2 * packs_.size());
-      packs_[size_++] = {k, std::min(width, run.end - k)};
+      packs_[size_++] = pack(run, k, writable_end);
     }
   }
 

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "solvers/wcsph/neighbour_packs.h"
 #include "solvers/wcsph/test_tank.h"
 #include "solvers/wcsph/wcsph_solver.h"
 
@@ -105,6 +107,25 @@ TYPED_TEST(PairSums, AreThoseOfAllPairsWithDynamicWalls) {
 
 TYPED_TEST(PairSums, AreThoseOfAllPairsWithExtrapolatedWalls) {
   expect_rates_of_every_pair<TypeParam>(WallModel::extrapolated);
+}
+
+TYPED_TEST(PairSums, PacksHoldTheirRunAndAreWrittenNoFurtherThanTheyMay) {
+  constexpr std::int32_t width = Lanes<TypeParam>::width;
+  const std::array<Run, 3> runs{{{5, 5}, {7, 7 + 5 * width + 1}, {200, 200 + width}}};
+  for (const std::int32_t free : {0, 1, width - 1, width}) {
+    std::array<std::int32_t, 3> ends;
+    for (std::size_t k = 0; k < runs.size(); ++k) ends[k] = runs[k].end + free;
+    PackList<TypeParam> packs;
+    packs.list(runs, ends);
+    std::array<std::int32_t, 3> next{5, 7, 200};
+    for (const PackOfRun& pack : packs) {
+      const std::size_t run = pack.begin < 200 ? 1 : 2;
+      EXPECT_EQ(pack.begin, next[run]);
+      next[run] += pack.count;
+      EXPECT_EQ(pack.writable, pack.begin + width <= ends[run] ? width : pack.count);
+    }
+    for (std::size_t k = 0; k < runs.size(); ++k) EXPECT_EQ(next[k], runs[k].end);
+  }
 }
 
 }  // namespace

@@ -96,7 +96,8 @@ class RowIndex {
   Runs neighbours(const Vec3d& point_m, const Row& row, double travel_m) const;
   /// The own row and those that come after it: further along y by up to reach_rows, or at the same y and higher.
   ForwardRuns forward(const Vec3d& point_m, const Row& row, double travel_m) const;
-  /// The first particle of a slice in each of the rows of forward(), or what follows the row's last (slice = nx).
+  /// The first particle of a slice in each of the rows of forward(), or what follows the row's last (slice = nx). The
+  /// row must not be one of the empty ones at the domain's sides.
   ForwardStarts forward_starts(const Row& row, std::int32_t slice) const {
     ForwardStarts starts;
     for (std::size_t k = 0; k < starts.size(); ++k) starts[k] = row.start[stencil_.base[k] + slice];

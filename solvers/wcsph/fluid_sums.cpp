@@ -102,10 +102,11 @@ class RunSums {
   /// Sums for particles of one row. Terms of zero may be added to whatever lies before free_slice in the rows that are
   /// reached.
   void sum(const Run& targets, std::int32_t row_y, std::int32_t row_z, std::int32_t free_slice) {
+    if (targets.begin == targets.end) return;
     const auto end = static_cast<std::size_t>(targets.end);
     const RowIndex::Row search = neighbours_.index.row_search(row_y, row_z);
     free_ends_ = neighbours_.index.forward_starts(search, free_slice);
-    if (targets.begin < targets.end) list(static_cast<std::size_t>(targets.begin), search);
+    list(static_cast<std::size_t>(targets.begin), search);
     for (auto i = static_cast<std::size_t>(targets.begin); i < end; ++i) {
       if (i + 1 < end) list(i + 1, search);
       sum_particle(i);

@@ -80,7 +80,7 @@ void expect_rates_of_every_pair(WallModel walls) {
   p.alpha = 0.1;
   WcsphSolver<Pack> s(scene, p, 2);
   const double slack_m = s.sorted_fluid().index.geometry().slack_m;
-  while (s.time_s() < 0.2 || s.sorted_fluid().travel_m < 0.8 * slack_m) s.step();
+  while (s.time_s() < 0.1 || s.sorted_fluid().travel_m < 0.8 * slack_m) s.step();
   Particles<Pack> fluid = s.fluid();
   sum_fluid_rates(fluid, s.sorted_fluid(), s.sorted_walls(), s.constants(), 2);
   const Plain<Pack> plain(s, p);

@@ -43,7 +43,7 @@ struct Campaign {
   const Case& case_of(const CampaignRun& run) const { return cases[run.the_case]; }
 };
 
-/// Reads a campaign; its runs go to directories below `out`. `threads` 0: all processors.
+/// Reads a campaign; its runs go to directories below `out`. `threads` 0: as RunRequest says.
 /// Throws CaseError `file:line: key: message`, also where two combinations are the same run, or there are over 10 000.
 Campaign load_campaign(const std::filesystem::path& file, const std::filesystem::path& out, int threads);
 

@@ -119,8 +119,9 @@ RunSettings resolve_settings(const Case& c, const RunRequest& request) {
   settings.l0_m = choose_l0(c, request);
   settings.t_end_s = c.t_end_s;
   settings.output_rate_Hz = c.output_rate_Hz;
-  if (request.threads < 0) throw std::invalid_argument("threads: must be 1 or more (or 0 for all processors)");
-  settings.threads = request.threads > 0 ? request.threads : omp_get_num_procs();
+  if (request.threads < 0)
+    throw std::invalid_argument("threads: must be 1 or more (or 0 for OMP_NUM_THREADS, else all processors)");
+  settings.threads = request.threads > 0 ? request.threads : omp_get_max_threads();
   settings.parameters = solver.parameters;
   for (const auto& [key, value] : walls.parameters) settings.parameters[key] = value;
   for (const Placement& placement : c.placements) settings.parameters[placement.name] = placement.drawn_m;

@@ -17,7 +17,7 @@ struct RunRequest {
   std::string solver;                                     ///< empty: the case's first
   std::string walls;                                      ///< empty: the solver's default
   std::optional<double> l0_m;                             ///< none: the tier "standard", or else the first tier
-  int threads = 0;                                        ///< 0: all processors that this process may use
+  int threads = 0;                                        ///< 0: OMP_NUM_THREADS, else all this process may use
   bool snapshots = false;                                 ///< at the case's times
   double snapshot_every_s = 0;                            ///< above 0: at this interval instead
   std::vector<std::pair<std::string, double>> overrides;  ///< key=value: t_end_s, output_rate_Hz, solver parameters

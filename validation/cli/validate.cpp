@@ -198,7 +198,8 @@ void add_validate(CLI::App& app, int& exit_code) {
   command->add_option("CASE", arguments->case_name, "Case")->capture_default_str();
   command->add_option("--solver", arguments->solver, "Solver (default: all of the case that this program has)");
   command->add_option("--tier", arguments->tier, "Resolution: a tier of the case")->capture_default_str();
-  command->add_option("--threads", arguments->threads, "Threads (default: all processors)")->check(CLI::Range(1, 1024));
+  command->add_option("--threads", arguments->threads, "Threads (default: OMP_NUM_THREADS, else all processors)")
+      ->check(CLI::Range(1, 1024));
   command->add_option("--out", arguments->out, "Directory of the report")->capture_default_str();
   command->add_option("--runs", arguments->runs, "Directory of the runs")->capture_default_str();
   command->add_flag("--reuse", arguments->reuse, "Keep finished runs of the same commit and case file");

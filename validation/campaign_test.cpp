@@ -195,9 +195,9 @@ TEST_F(CampaignTest, WhereNothingHasRunYetTheFirstStepsTellTheRate) {
   EXPECT_TRUE(probe_costs(load(group + "t_end_s = 0.1\n"), false, {}).empty()) << "too short to be worth it";
   const Campaign c = load(group + "t_end_s = 600\n");
   const std::vector<RunCost> probed = probe_costs(c, false, {});
-  ASSERT_EQ(probed.size(), 1U) << "one for both particle distances";
+  ASSERT_EQ(probed.size(), 2U) << "one for each particle distance";
   EXPECT_GE(probed[0].steps, 5);
-  const double rate = probed[0].fluid * probed[0].steps / probed[0].wall_time_s;
+  const double rate = probed[1].fluid * probed[1].steps / probed[1].wall_time_s;
   const Plan constants = plan_run(c.case_of(c.runs[1]), c.runs[1].settings);
   const Plan plan = estimate(c, c.runs[1], probed).plan;
   EXPECT_EQ(plan.basis, PlanBasis::probe);
@@ -210,6 +210,25 @@ TEST_F(CampaignTest, WhereNothingHasRunYetTheFirstStepsTellTheRate) {
   EXPECT_EQ(estimate(c, c.runs[1], {probed[0], run}).plan.basis, PlanBasis::run) << "farther, but a run";
   run.case_hash = "another";
   EXPECT_EQ(estimate(c, c.runs[1], {probed[0], run}).plan.basis, PlanBasis::probe);
+}
+
+TEST_F(CampaignTest, ARunByItselfIsPlannedByItsFirstStepsToo) {
+  const std::string text = "name = \"p\"\n[[runs]]\ncase = \"kleefsman\"\nsolver = \"mps\"\nl0_m = [0.05]\nt_end_s = ";
+  const auto planned = [&](const Campaign& c) {
+    return plan_near(c.case_of(c.runs[0]), c.runs[0].settings, c.runs[0].directory);
+  };
+  EXPECT_EQ(planned(load(text + "0.1\n")).basis, PlanBasis::constants) << "too short to be worth it";
+  const Campaign c = load(text + "600\n");
+  EXPECT_EQ(planned(c).basis, PlanBasis::probe);
+  EXPECT_THAT(describe(planned(c), std::nullopt), HasSubstr("by a second of its first steps"));
+  auto done = manifest(c, c.runs[0], "finished");
+  done["wall_time_s"] = 10.0;
+  done["steps"] = 1000;
+  done["time_s"] = 2.0;
+  done["particles"] = {{"fluid", 5000}, {"solid", 9000}};
+  fs::create_directories(c.runs[0].directory);
+  std::ofstream(c.runs[0].directory / "run.json") << done;
+  EXPECT_EQ(planned(c).basis, PlanBasis::run);
 }
 
 TEST_F(CampaignTest, FirstStepsThatFailAreNoReasonToStopTheOthers) {

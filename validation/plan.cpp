@@ -66,6 +66,19 @@ double fitting_l0_m(const Case& c, const RunSettings& settings, std::int64_t ava
   return std::ceil(l0_m * scale) / scale;
 }
 
+/// Where a plan's time comes from, for people.
+const char* told_by(PlanBasis basis) {
+  switch (basis) {
+    case PlanBasis::run:
+      return "by a run of its kind on this machine";
+    case PlanBasis::probe:
+      return "by a second of its first steps: no run of its kind on this machine yet";
+    case PlanBasis::constants:
+      break;
+  }
+  return "no run of its kind on this machine yet";
+}
+
 }  // namespace
 
 Plan plan_run(const Case& c, const RunSettings& settings) {
@@ -107,8 +120,7 @@ std::string describe(const Plan& plan, std::optional<std::int64_t> available_byt
       "particles: {} fluid, {} solid; memory: about {} (available: {})\n"
       "expected: {:.0f} steps of {:.3g} s, about {} ({})\n",
       plan.particles.fluid, plan.particles.solid, human_bytes(static_cast<double>(plan.memory_bytes)), available,
-      plan.steps, plan.dt_s, human_time(plan.wall_time_s),
-      plan.basis == PlanBasis::run ? "by a run of its kind on this machine" : "no run of its kind on this machine yet");
+      plan.steps, plan.dt_s, human_time(plan.wall_time_s), told_by(plan.basis));
 }
 
 std::string human_bytes(double bytes) {

@@ -11,7 +11,7 @@
 #include "validation/manifest.h"
 #include "validation/plan.h"
 #include "validation/progress.h"
-#include "validation/run_cost.h"
+#include "validation/rate_probe.h"
 #include "validation/run_lock.h"
 #include "validation/run_loop.h"
 #include "validation/run_manifest.h"

@@ -179,18 +179,22 @@ int report_only(const Campaign& campaign, const fs::path& out) {
   return code;
 }
 
-/// What a task of a job array does: one run, from wherever it stands.
-int compute_only(const Campaign& campaign, const CampaignArguments& arguments) {
-  const auto run = std::find_if(campaign.runs.begin(), campaign.runs.end(),
-                                [&](const CampaignRun& r) { return r.directory.filename() == arguments.only; });
-  if (run == campaign.runs.end())
+/// Drops all runs but that of this name.
+void keep_only(Campaign& campaign, const CampaignArguments& arguments) {
+  std::erase_if(campaign.runs, [&](const CampaignRun& r) { return r.directory.filename() != arguments.only; });
+  if (campaign.runs.empty())
     throw UsageError(fmt::format("--only: {} has no run {} (--dry-run lists them)", arguments.file, arguments.only));
-  const CampaignState before = state_of(campaign, *run);
+}
+
+/// What a task of a job array does: the campaign's one run, from wherever it stands.
+int compute_only(const Campaign& campaign, const CampaignArguments& arguments) {
+  const CampaignRun& run = campaign.runs.front();
+  const CampaignState before = state_of(campaign, run);
   if (before == CampaignState::finished && !arguments.force) {
     fmt::print("{}: finished already\n", arguments.only);
     return 0;
   }
-  const RunOutcome outcome = compute(campaign, *run, arguments);
+  const RunOutcome outcome = compute(campaign, run, arguments);
   if (outcome.status == "failed") throw std::runtime_error(fmt::format("{}: {}", arguments.only, outcome.error));
   // Who puts an interrupted run back into a queue must not do so for ever.
   if (outcome.status == "interrupted" && !outcome.advanced)
@@ -247,7 +251,8 @@ int run(const CampaignArguments& arguments) {
   if (!slurm && (!arguments.partition.empty() || !arguments.time_limit.empty()))
     throw UsageError("--partition and --time-limit are for --engine slurm");
   if (arguments.report_only) return report_only(campaign, out);
-  if (!arguments.only.empty()) return compute_only(campaign, arguments);
+  if (!arguments.only.empty()) keep_only(campaign, arguments);
+  if (!arguments.only.empty() && !arguments.dry_run) return compute_only(campaign, arguments);
   if (slurm && arguments.dry_run) return run_on_slurm(campaign, arguments, out);  // prints nothing but the scripts
   KnownCosts known{runs_near(out), {}};
   std::vector<RunCost> costs = known.now(campaign);
@@ -267,7 +272,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
   command->add_option("--out", arguments->out, "Directory of its runs and reports (default: runs/<file's name>)");
   command
       ->add_option("--threads", arguments->threads,
-                   "Threads of each run (default: all processors; with Slurm, the file's or 1)")
+                   "Threads of each run (default: OMP_NUM_THREADS, else all processors; with Slurm, the file's or 1)")
       ->check(CLI::Range(1, 1024));
   command->add_option("--checkpoint-every", arguments->checkpoint_every_s, "Seconds between checkpoints of a run")
       ->check(CLI::NonNegativeNumber)

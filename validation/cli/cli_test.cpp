@@ -206,6 +206,9 @@ t_end_s = 0.01
   const Answer plan = sluice(command + " --dry-run");
   EXPECT_EQ(plan.exit_code, 0);
   EXPECT_THAT(plan.out, HasSubstr("2 runs, 2 to compute"));
+  EXPECT_THAT(sluice(command + " --dry-run --only kleefsman-wcsph-dynamic-l0.050-alpha0.01-t_end_s0.01").out,
+              HasSubstr("1 runs, 1 to compute"));
+  EXPECT_FALSE(fs::exists(directory / "runs")) << "a dry run computes nothing";
   const Answer first = sluice(command);
   EXPECT_EQ(first.exit_code, 1);
   EXPECT_THAT(first.out, AllOf(HasSubstr("failed       kleefsman-mps"), HasSubstr("did not converge"),

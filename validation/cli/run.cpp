@@ -11,7 +11,7 @@
 #include "validation/cli/usage_error.h"
 #include "validation/plan.h"
 #include "validation/progress.h"
-#include "validation/run_cost.h"
+#include "validation/rate_probe.h"
 #include "validation/solver_factory.h"
 
 namespace sluice::cli {
@@ -88,7 +88,8 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--walls", arguments->request.walls, "Wall model (default: the solver's default in the case)");
   command->add_option("--l0", arguments->l0_m, "Particle distance [m] (default: the case's tier `standard`)");
   command->add_option("--alpha", arguments->alpha, "Artificial viscosity, the same as alpha=...");
-  command->add_option("--threads", arguments->request.threads, "Threads (default: all processors)")
+  command
+      ->add_option("--threads", arguments->request.threads, "Threads (default: OMP_NUM_THREADS, else all processors)")
       ->check(CLI::Range(1, 1024));
   command->add_option("--out", arguments->out, "Run directory (default: runs/<case>-<solver>-<walls>-l0...-alpha...)");
   command->add_flag("--snapshots", arguments->request.snapshots, "Write ParaView snapshots at the case's times");

@@ -84,8 +84,7 @@ double print_plan(const Campaign& campaign, bool force, const std::vector<RunCos
   const double planned_s = remaining_s(campaign, 0, force, costs);
   fmt::print(
       "{}: {} runs, {} to compute, at most {} of memory, about {} (*: no run of the kind on this machine yet; by a "
-      "second "
-      "of its first steps or, if short, this program's constants)\n",
+      "second of its first steps or, if short, this program's constants)\n",
       campaign.name, campaign.runs.size(), to_do, human_bytes(static_cast<double>(most_bytes)), human_time(planned_s));
   std::fflush(stdout);
   return planned_s;

@@ -215,7 +215,7 @@ TEST_F(CampaignTest, WhereNothingHasRunYetTheFirstStepsTellTheRate) {
 TEST_F(CampaignTest, ARunByItselfIsPlannedByItsFirstStepsToo) {
   const std::string text = "name = \"p\"\n[[runs]]\ncase = \"kleefsman\"\nsolver = \"mps\"\nl0_m = [0.05]\nt_end_s = ";
   const auto planned = [&](const Campaign& c) {
-    return plan_near(c.case_of(c.runs[0]), c.runs[0].settings, c.runs[0].directory);
+    return probed_plan(c.case_of(c.runs[0]), c.runs[0].settings, c.runs[0].directory);
   };
   EXPECT_EQ(planned(load(text + "0.1\n")).basis, PlanBasis::constants) << "too short to be worth it";
   const Campaign c = load(text + "600\n");

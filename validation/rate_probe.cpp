@@ -84,13 +84,12 @@ std::vector<RunCost> probe_costs(const Campaign& campaign, bool force, const std
   return probed;
 }
 
-Plan plan_near(const Case& c, const RunSettings& settings, const std::filesystem::path& directory) {
-  Plan plan = plan_run(c, settings);
-  std::vector<RunCost> costs = run_costs(runs_near(directory));
-  const bool known =
-      std::any_of(costs.begin(), costs.end(), [&](const auto& cost) { return is_of_kind(cost, settings); });
-  if (!known && plan.wall_time_s >= worth_a_probe_s) probe_into(costs, c, settings);
-  reckon_by(costs, c, settings, plan);
+Plan probed_plan(const Case& c, const RunSettings& settings, const std::filesystem::path& directory) {
+  Plan plan = plan_near(c, settings, directory);
+  if (plan.basis != PlanBasis::constants || plan.wall_time_s < worth_a_probe_s) return plan;
+  std::vector<RunCost> probed;
+  probe_into(probed, c, settings);
+  reckon_by(probed, c, settings, plan);
   return plan;
 }
 

@@ -19,8 +19,7 @@ RunCost probe_cost(const Case& c, const RunSettings& settings);
 /// case where they are not. One without such a tier, or whose first steps fail, has none.
 std::vector<RunCost> probe_costs(const Campaign& campaign, bool force, const std::vector<RunCost>& known);
 
-/// plan_run(), its time reckoned by the runs near the directory that the run will go to or, where none of them is of
-/// its kind and it takes twenty seconds or more, by a probe.
-Plan plan_near(const Case& c, const RunSettings& settings, const std::filesystem::path& directory);
+/// plan_near() or, where no run near is of its kind and it takes twenty seconds or more, by a probe.
+Plan probed_plan(const Case& c, const RunSettings& settings, const std::filesystem::path& directory);
 
 }  // namespace sluice

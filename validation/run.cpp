@@ -11,7 +11,7 @@
 #include "validation/manifest.h"
 #include "validation/plan.h"
 #include "validation/progress.h"
-#include "validation/rate_probe.h"
+#include "validation/run_cost.h"
 #include "validation/run_lock.h"
 #include "validation/run_loop.h"
 #include "validation/run_manifest.h"
@@ -94,7 +94,7 @@ void refuse_changed_case(const Case& c, const RunHeader& header) {
 }  // namespace
 
 RunOutcome run_case(const Case& c, const RunSettings& settings, const RunOptions& options) {
-  const Plan plan = plan_near(c, settings, options.out);
+  const Plan plan = options.plan ? *options.plan : plan_near(c, settings, options.out);
   const auto available = options.available_memory_bytes ? options.available_memory_bytes : available_memory_bytes();
   refuse_if_too_large(c, settings, plan, available);
   const RunLock lock = prepare_run_directory(options.out, options.force);

@@ -10,6 +10,7 @@
 
 #include "solvers/solver.h"
 #include "validation/case.h"
+#include "validation/plan.h"
 #include "validation/run_settings.h"
 
 namespace sluice {
@@ -25,6 +26,7 @@ struct RunOptions {
   bool terminal = false;                               ///< `progress` is a terminal
   SolverFactory factory;                               ///< empty: make_solver()
   std::optional<std::int64_t> available_memory_bytes;  ///< none: ask the system
+  std::optional<Plan> plan;                            ///< none: plan_near()
 };
 
 /// Choices for going on with a run; all else stands in its checkpoint.

@@ -123,4 +123,10 @@ void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettin
   plan.basis = nearest->probed ? PlanBasis::probe : PlanBasis::run;
 }
 
+Plan plan_near(const Case& c, const RunSettings& settings, const fs::path& directory) {
+  Plan plan = plan_run(c, settings);
+  reckon_by(run_costs(runs_near(directory)), c, settings, plan);
+  return plan;
+}
+
 }  // namespace sluice

@@ -44,4 +44,7 @@ std::vector<std::filesystem::path> runs_near(const std::filesystem::path& direct
 /// second of flow go with 1 / l0, and hang a little on alpha. Without such a run the plan stays as it is.
 void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettings& settings, Plan& plan);
 
+/// plan_run(), its time reckoned by the runs near the directory that the run will go to.
+Plan plan_near(const Case& c, const RunSettings& settings, const std::filesystem::path& directory);
+
 }  // namespace sluice

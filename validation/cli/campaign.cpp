@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -90,7 +91,9 @@ double print_plan(const Campaign& campaign, bool force, const std::vector<RunCos
   return planned_s;
 }
 
-RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const CampaignArguments& arguments) {
+/// Without a plan it is plan_near().
+RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const CampaignArguments& arguments,
+                   const std::optional<Plan>& plan) {
   const bool terminal = isatty(STDERR_FILENO) == 1;
   if (!arguments.force && state_of(campaign, run) == CampaignState::resumable) {
     ResumeOptions options;
@@ -106,6 +109,7 @@ RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Campa
   options.progress = stderr;
   options.terminal = terminal;
   options.checkpoint_every_s = arguments.checkpoint_every_s;
+  options.plan = plan;
   return run_case(campaign.case_of(run), run.settings, options);
 }
 
@@ -122,17 +126,17 @@ int compute_all(const Campaign& campaign, const CampaignArguments& arguments, co
     tell(stderr,
          fmt::format("[{}/{}] {}; {} left of the campaign\n", i + 1, campaign.runs.size(),
                      run.directory.filename().string(), human_time(remaining_s(campaign, i, arguments.force, costs))));
-    const double planned_s = estimate(campaign, run, costs).remaining_s();
+    const CampaignEstimate planned = estimate(campaign, run, costs);
     const auto begin = std::chrono::steady_clock::now();
     RunOutcome outcome;
     try {
-      outcome = compute(campaign, run, arguments);
+      outcome = compute(campaign, run, arguments, planned.plan);
     } catch (const std::exception& error) {
       outcome = {"failed", error.what(), 1};
     }
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     tell(stderr, fmt::format("[{}/{}] {} after {}, planned {}\n", i + 1, campaign.runs.size(), outcome.status,
-                             human_time(taken.count()), human_time(planned_s)));
+                             human_time(taken.count()), human_time(planned.remaining_s())));
     results.push_back({outcome.status, outcome.error});
     if (outcome.status == "interrupted") return outcome.exit_code;
   }
@@ -193,7 +197,7 @@ int compute_only(const Campaign& campaign, const CampaignArguments& arguments) {
     fmt::print("{}: finished already\n", arguments.only);
     return 0;
   }
-  const RunOutcome outcome = compute(campaign, run, arguments);
+  const RunOutcome outcome = compute(campaign, run, arguments, std::nullopt);
   if (outcome.status == "failed") throw std::runtime_error(fmt::format("{}: {}", arguments.only, outcome.error));
   // Who puts an interrupted run back into a queue must not do so for ever.
   if (outcome.status == "interrupted" && !outcome.advanced)

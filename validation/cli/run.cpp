@@ -61,10 +61,10 @@ int run(const CLI::App& command, RunArguments& arguments) {
   options.force = arguments.force;
   options.checkpoint_every_s = arguments.checkpoint_every_s;
   options.log_steps = arguments.log_steps;
+  options.plan = probed_plan(c, settings, options.out);
   if (arguments.dry_run) {
-    const Plan plan = plan_near(c, settings, options.out);
-    fmt::print("{}into {}\n", describe(plan, available_memory_bytes()), options.out.string());
-    refuse_if_too_large(c, settings, plan, available_memory_bytes());
+    fmt::print("{}into {}\n", describe(*options.plan, available_memory_bytes()), options.out.string());
+    refuse_if_too_large(c, settings, *options.plan, available_memory_bytes());
     return 0;
   }
   options.progress = stderr;

@@ -74,6 +74,24 @@ Vec3d velocity_change(const Particles<Pack>& p, const VectorField<double>& wall_
   return change + wall.contact(u + change, d.wall_m, c.dt_s);
 }
 
+/// Sum of the unit vectors to wall particle w from what solid is not its own and lies within `support_m`.
+template <class Pack>
+Vec3d away_from_solids(const Particles<Pack>& p, const SolidSets& solids, std::size_t w, double support_m) {
+  const Vec3d x = p.position.template at<double>(p.first_wall() + w);
+  Vec3d sum;
+  const auto add = [&](std::size_t j) {
+    const Vec3d r = p.position.template at<double>(j) - x;
+    if (const double distance2 = dot(r, r); distance2 < support_m * support_m) sum += (-1 / std::sqrt(distance2)) * r;
+  };
+  for (const Run& run : solids.dummies.neighbours(x, 0.0))
+    for (auto j = static_cast<std::size_t>(run.begin); j < static_cast<std::size_t>(run.end); ++j) add(j);
+  if (solids.moving_body.empty()) return sum;
+  for (const Run& run : solids.walls.neighbours(x, 0.0))
+    for (auto k = static_cast<std::size_t>(run.begin); k < static_cast<std::size_t>(run.end); ++k)
+      if (solids.moving_body[k] != solids.moving_body[w]) add(p.first_wall() + k);
+  return sum;
+}
+
 }  // namespace
 
 /// No pair comes closer by more than 2 Cr l0 in a step.
@@ -99,27 +117,16 @@ std::int64_t collide(const Particles<Pack>& p, const VectorField<double>& wall_n
 }
 
 template <class Pack>
-VectorField<double> wall_normals(const Particles<Pack>& p, const SolidSets& solids, double particle_distance_m) {
+VectorField<double> wall_normals(const Particles<Pack>& p, const SolidSets& solids, double particle_distance_m,
+                                 int threads) {
   VectorField<double> normals;
   normals.resize(p.walls);
   const double support_m = 1.75 * particle_distance_m;  // the layer behind, with its corners
-  for (std::size_t w = 0; w < p.walls; ++w) {
-    const std::size_t i = p.first_wall() + w;
-    const Vec3d x = p.position.template at<double>(i);
-    Vec3d sum;
-    const auto add = [&](std::size_t j) {
-      const Vec3d r = p.position.template at<double>(j) - x;
-      const double distance = std::sqrt(dot(r, r));
-      if (distance < support_m) sum += (-1 / distance) * r;
-    };
-    for (const Run& run : solids.dummies.neighbours(x, 0.0))
-      for (auto j = static_cast<std::size_t>(run.begin); j < static_cast<std::size_t>(run.end); ++j) add(j);
-    if (solids.moving_body) {
-      const int body = solids.moving_body(i);
-      for (const Run& run : solids.walls.neighbours(x, 0.0))
-        for (auto k = static_cast<std::size_t>(run.begin); k < static_cast<std::size_t>(run.end); ++k)
-          if (solids.moving_body(p.first_wall() + k) != body) add(p.first_wall() + k);
-    }
+  const auto n = static_cast<std::int64_t>(p.walls);
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 256)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto w = static_cast<std::size_t>(k);
+    const Vec3d sum = away_from_solids(p, solids, w, support_m);
     const double length = std::sqrt(dot(sum, sum));
     normals.set(w, length > 0 ? (1 / length) * sum : sum);
   }
@@ -130,7 +137,7 @@ template std::int64_t collide(const Particles<double>&, const VectorField<double
                               const OperatorConstants&, VectorField<double>&, int);
 template std::int64_t collide(const Particles<FloatPack>&, const VectorField<double>&, const NeighbourList<FloatPack>&,
                               const OperatorConstants&, VectorField<float>&, int);
-template VectorField<double> wall_normals(const Particles<double>&, const SolidSets&, double);
-template VectorField<double> wall_normals(const Particles<FloatPack>&, const SolidSets&, double);
+template VectorField<double> wall_normals(const Particles<double>&, const SolidSets&, double, int);
+template VectorField<double> wall_normals(const Particles<FloatPack>&, const SolidSets&, double, int);
 
 }  // namespace sluice::mps

@@ -12,7 +12,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <span>
 
 #include "solvers/mps/neighbours.h"
 #include "solvers/mps/operators.h"
@@ -34,14 +34,15 @@ double collision_reach_m(const Parameters& parameters);
 struct SolidSets {
   const RowIndex& dummies;  ///< particle k is particle k of the run
   const RowIndex& walls;    ///< particle k is particle first_wall() + k
-  /// Which body with a motion of its own each wall particle belongs to; 0: none, as all that stand still together.
-  /// Empty where nothing moves.
-  std::function<int(std::size_t)> moving_body;
+  /// Which body with a motion of its own each wall particle belongs to, first_wall() first; 0: none, as all that stand
+  /// still together. Empty where nothing moves.
+  std::span<const std::int8_t> moving_body;
 };
 
 /// Unit normals of the wall particles into the fluid: away from the dummy particles behind them, and from walls of
 /// bodies that move against their own, so that a shut gate and its frame have one plane normal.
 template <class Pack>
-VectorField<double> wall_normals(const Particles<Pack>& particles, const SolidSets& solids, double particle_distance_m);
+VectorField<double> wall_normals(const Particles<Pack>& particles, const SolidSets& solids, double particle_distance_m,
+                                 int threads);
 
 }  // namespace sluice::mps

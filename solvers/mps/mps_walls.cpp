@@ -53,12 +53,13 @@ void MpsSolver<Pack>::copy_wall_velocities() {
 
 template <class Pack>
 void MpsSolver<Pack>::find_wall_normals() {
-  SolidSets solids{dummies_.index, walls_.index, {}};
+  std::vector<std::int8_t> moving_body;
   if (moving_walls_.any())
-    solids.moving_body = [&](std::size_t i) {
-      return static_cast<int>(moving_body_[static_cast<std::size_t>(particles_.id[i] - first_wall_id_)]);
-    };
-  wall_normals_ = wall_normals(particles_, solids, constants_.parameters.particle_distance_m);
+    for (std::size_t w = 0; w < particles_.walls; ++w)
+      moving_body.push_back(
+          moving_body_[static_cast<std::size_t>(particles_.id[particles_.first_wall() + w] - first_wall_id_)]);
+  wall_normals_ = wall_normals(particles_, {dummies_.index, walls_.index, moving_body},
+                               constants_.parameters.particle_distance_m, threads_);
 }
 
 template class MpsSolver<FloatPack>;

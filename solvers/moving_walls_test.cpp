@@ -7,6 +7,7 @@
 #include <string>
 
 #include "solvers/memory_archive.h"
+#include "solvers/mps/collisions.h"
 #include "solvers/mps/mps_solver.h"
 #include "solvers/wcsph/wcsph_solver.h"
 
@@ -127,6 +128,34 @@ TEST_P(Gate, GoesOnBitForBitAfterARestart) {
   EXPECT_EQ(a.position_m, b.position_m);
   EXPECT_EQ(a.velocity_m_s, b.velocity_m_s);
   EXPECT_EQ(a.pressure_Pa, b.pressure_Pa);
+}
+
+/// In MPS, normals are found anew around what moves alone: they have to be those of a search everywhere.
+TEST(MovingWalls, NormalsOfWallsAreThoseOfWhereTheGateIs) {
+  const Scene scene = scene_for("mps", 0.01);
+  mps::Parameters p;
+  p.particle_distance_m = l0;
+  p.greatest_speed_m_s = 2.5;
+  mps::MpsSolver<FloatPack> solver(scene, p, 2);
+  const Vec3d at_first = solver.normals_of_walls().at<double>(0);
+  EXPECT_NEAR(dot(at_first, at_first), 1, 1e-12);
+  for (const double t_s : {0.005, 0.05, 0.15, 0.4}) {
+    run_to(solver, t_s);
+    const auto& particles = solver.particles();
+    std::vector<std::int8_t> moving_body;
+    for (std::size_t w = 0; w < particles.walls; ++w) {
+      const auto wall = static_cast<std::size_t>(particles.id[particles.first_wall() + w]) - scene.fluid.size();
+      moving_body.push_back(static_cast<std::int8_t>(scene.walls[wall].body));
+    }
+    VectorField<double> everywhere;
+    everywhere.resize(particles.walls);
+    const Box all{{-10, -10, -10}, {10, 10, 10}};
+    mps::find_wall_normals(particles, {solver.dummy_set().index, solver.wall_set().index, moving_body}, l0, all, 1,
+                           everywhere);
+    EXPECT_EQ(everywhere.x, solver.normals_of_walls().x) << "at " << t_s << " s";
+    EXPECT_EQ(everywhere.y, solver.normals_of_walls().y);
+    EXPECT_EQ(everywhere.z, solver.normals_of_walls().z);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Gate, ::testing::Values("wcsph", "wcsph-dynamic", "mps"), [](const auto& tested) {

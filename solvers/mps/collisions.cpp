@@ -117,27 +117,28 @@ std::int64_t collide(const Particles<Pack>& p, const VectorField<double>& wall_n
 }
 
 template <class Pack>
-VectorField<double> wall_normals(const Particles<Pack>& p, const SolidSets& solids, double particle_distance_m,
-                                 int threads) {
-  VectorField<double> normals;
-  normals.resize(p.walls);
+void find_wall_normals(const Particles<Pack>& p, const SolidSets& solids, double particle_distance_m, const Box& moved,
+                       int threads, VectorField<double>& normals) {
   const double support_m = 1.75 * particle_distance_m;  // the layer behind, with its corners
+  const Box within = grown(moved, support_m);
   const auto n = static_cast<std::int64_t>(p.walls);
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 256)
   for (std::int64_t k = 0; k < n; ++k) {
     const auto w = static_cast<std::size_t>(k);
+    if (!holds_point(within, p.position.template at<double>(p.first_wall() + w))) continue;
     const Vec3d sum = away_from_solids(p, solids, w, support_m);
     const double length = std::sqrt(dot(sum, sum));
     normals.set(w, length > 0 ? (1 / length) * sum : sum);
   }
-  return normals;
 }
 
 template std::int64_t collide(const Particles<double>&, const VectorField<double>&, const NeighbourList<double>&,
                               const OperatorConstants&, VectorField<double>&, int);
 template std::int64_t collide(const Particles<FloatPack>&, const VectorField<double>&, const NeighbourList<FloatPack>&,
                               const OperatorConstants&, VectorField<float>&, int);
-template VectorField<double> wall_normals(const Particles<double>&, const SolidSets&, double, int);
-template VectorField<double> wall_normals(const Particles<FloatPack>&, const SolidSets&, double, int);
+template void find_wall_normals(const Particles<double>&, const SolidSets&, double, const Box&, int,
+                                VectorField<double>&);
+template void find_wall_normals(const Particles<FloatPack>&, const SolidSets&, double, const Box&, int,
+                                VectorField<double>&);
 
 }  // namespace sluice::mps

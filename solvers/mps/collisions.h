@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <span>
 
+#include "solvers/box.h"
 #include "solvers/mps/neighbours.h"
 #include "solvers/mps/operators.h"
 #include "solvers/mps/particles.h"
@@ -39,10 +40,11 @@ struct SolidSets {
   std::span<const std::int8_t> moving_body;
 };
 
-/// Unit normals of the wall particles into the fluid: away from the dummy particles behind them, and from walls of
-/// bodies that move against their own, so that a shut gate and its frame have one plane normal.
+/// Finds the unit normals of the wall particles into the fluid: away from the dummy particles behind them, and from
+/// walls of bodies that move against their own, so that a shut gate and its frame have one plane normal. `normals` has
+/// those of before; those that particles within the box `moved` can have changed are found anew.
 template <class Pack>
-VectorField<double> wall_normals(const Particles<Pack>& particles, const SolidSets& solids, double particle_distance_m,
-                                 int threads);
+void find_wall_normals(const Particles<Pack>& particles, const SolidSets& solids, double particle_distance_m,
+                       const Box& moved, int threads, VectorField<double>& normals);
 
 }  // namespace sluice::mps

@@ -115,7 +115,8 @@ void MpsSolver<Pack>::place(const Scene& scene) {
     particles_.id[particles_.first_fluid() + k] = static_cast<std::int32_t>(k);
   }
   particles_.encode_positions(tank_.domain(), 0, threads_);
-  find_wall_normals();
+  wall_normals_.resize(particles_.walls);
+  find_normals(tank_.domain());
   list_neighbours();
 }
 

@@ -84,11 +84,11 @@ class MpsSolver final : public Solver {
     Proximity proximity;
   };
   void place(const Scene& scene);
-  void sort_solids(Solids& solids);
-  void set_moving_walls(double t_s);
+  std::vector<std::int32_t> sort_solids(Solids& solids);
+  Box set_moving_walls(double t_s);
   void bring_walls_to(double t_s);
   void copy_wall_velocities();
-  void find_wall_normals();
+  void find_normals(const Box& moved);
   std::size_t place_of(std::int32_t wall) const {
     return static_cast<std::size_t>(wall_place_[static_cast<std::size_t>(wall)]);
   }

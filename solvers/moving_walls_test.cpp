@@ -133,10 +133,8 @@ TEST_P(Gate, GoesOnBitForBitAfterARestart) {
 /// In MPS, normals are found anew around what moves alone: they have to be those of a search everywhere.
 TEST(MovingWalls, NormalsOfWallsAreThoseOfWhereTheGateIs) {
   const Scene scene = scene_for("mps", 0.01);
-  mps::Parameters p;
-  p.particle_distance_m = l0;
-  p.greatest_speed_m_s = 2.5;
-  mps::MpsSolver<FloatPack> solver(scene, p, 2);
+  const auto made = make("mps", scene, 2);
+  auto& solver = dynamic_cast<mps::MpsSolver<FloatPack>&>(*made);
   const Vec3d at_first = solver.normals_of_walls().at<double>(0);
   EXPECT_NEAR(dot(at_first, at_first), 1, 1e-12);
   for (const double t_s : {0.005, 0.05, 0.15, 0.4}) {

@@ -1,14 +1,14 @@
 // What the paper leaves out: short-range models that keep fluid particles from clustering and from passing through
 // walls. Both change predicted velocities, before anything moves. A single collision or contact takes energy away; of
 // several at once, all reckoned from the same velocities, a crowd straight ahead could give some back. In runs the
-// energy falls (see the README).
+// energy falls (see solvers/README.md).
 //
 // Fluid: pairs that approach and would be closer than Parameters::collision_over_distance collide with restitution e
 // (Lee, Park, Kim and Hwang 2011, Comput. Methods Appl. Mech. Eng. 200:1113).
 //
 // Walls: the same model between fluid and wall particles makes the wall as rough as its lattice, and a front that runs
-// over it is held back (see the README). So a wall is met along its normal: a particle nearer to the wall's layer than
-// Parameters::wall_contact_over_distance loses what velocity it has into the wall, and keeps the rest.
+// over it is held back (see solvers/README.md). So a wall is met along its normal: a particle nearer to the wall's
+// layer than Parameters::wall_contact_over_distance loses what velocity it has into the wall, and keeps the rest.
 #pragma once
 
 #include <cstdint>

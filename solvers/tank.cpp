@@ -8,7 +8,8 @@ namespace sluice {
 namespace {
 
 /// Shrinks an obstacle; where it stands on the tank for good it reaches a particle distance into the tank's wall
-/// instead, as deep as a particle can be that is not lost, so that nothing creeps in between.
+/// instead, as deep as a particle can be that is not lost, so that nothing creeps in between. The tank's top is no
+/// wall.
 Box shrunk(const Obstacle& o, const Box& tank, double by_m, double l0) {
   Box b = o.box;
   const bool moves = o.motion.moves();
@@ -16,7 +17,7 @@ Box shrunk(const Obstacle& o, const Box& tank, double by_m, double l0) {
     double& lower = component(b.lower, a);
     double& upper = component(b.upper, a);
     lower += moves || lower > component(tank.lower, a) ? by_m : -l0;
-    upper -= moves || upper < component(tank.upper, a) ? by_m : -l0;
+    upper -= moves || a == 2 || upper < component(tank.upper, a) ? by_m : -l0;
   }
   return b;
 }
@@ -39,6 +40,12 @@ void push_out(const Box& b, bool has_bottom, Vec3d& p, Vec3d& u) {
   } else {
     to_side(p.y, u.y, b.lower.y, b.upper.y);
   }
+}
+
+/// u where a body of velocity v has taken nothing of u - v (`was`, `now`): the sum of both could differ in its last
+/// digit.
+Vec3d with_taken(const Vec3d& u, const Vec3d& was, const Vec3d& now, const Vec3d& v) {
+  return {now.x == was.x ? u.x : now.x + v.x, now.y == was.y ? u.y : now.y + v.y, now.z == was.z ? u.z : now.z + v.z};
 }
 
 }  // namespace
@@ -103,10 +110,11 @@ bool Tank::hold(Vec3d& p, Vec3d& u) const {
   for (const Solid& s : solids_) {
     Vec3d relative = p - s.displacement_m;
     if (!holds_inside(s.skin, relative) || holds_inside(s.core, relative)) continue;
-    Vec3d velocity = u - s.velocity_m_s;
-    push_out(s.skin, s.has_bottom, relative, velocity);
+    const Vec3d velocity = u - s.velocity_m_s;
+    Vec3d held_velocity = velocity;
+    push_out(s.skin, s.has_bottom, relative, held_velocity);
     p = relative + s.displacement_m;
-    u = velocity + s.velocity_m_s;
+    u = with_taken(u, velocity, held_velocity, s.velocity_m_s);
     held = true;
   }
   return held;

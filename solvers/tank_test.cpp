@@ -52,6 +52,39 @@ TEST(Tank, ABodyThatMovesPushesAtItsOwnSpeedAndHasABottom) {
   EXPECT_DOUBLE_EQ(u.z, 1);
 }
 
+/// 0.1 - 0.6 + 0.6 is not 0.1: where the body takes nothing, the velocity stays what it was, to the last digit.
+TEST(Tank, ABodyThatMovesLeavesTheVelocityAlongItAsItIs) {
+  SceneDescription d;
+  d.tank = {{0, 0, 0}, {1, 1, 0.4}};
+  d.obstacles = {{.box = {{0.2, 0.6, 0.1}, {0.4, 0.8, 0.2}}, .motion = {.velocity_m_s = {0, 0, 0.6}, .stop_s = 1}}};
+  d.particle_distance_m = l0;
+  const Tank tank(build_scene(d));
+  for (int k = 0; k < 1000; ++k) {
+    Vec3d x{0.2 + 0.75 * l0, 0.7, 0.15};
+    Vec3d u{1, -0.5, static_cast<double>(static_cast<float>(-1.3 + 1e-3 * k))};
+    const Vec3d before = u;
+    ASSERT_TRUE(tank.hold(x, u));
+    EXPECT_EQ(u.x, 0);
+    EXPECT_EQ(u.y, before.y);
+    EXPECT_EQ(u.z, before.z);
+  }
+}
+
+TEST(Tank, ABodyAsHighAsTheTankHasATopThatSplashesFallOn) {
+  SceneDescription d;
+  d.tank = {{0, 0, 0}, {1, 1, 0.4}};
+  d.obstacles = {{.box = {{0.2, 0.2, 0}, {0.4, 0.4, 0.4}}}};
+  d.particle_distance_m = l0;
+  const Tank tank(build_scene(d));
+  EXPECT_EQ(tank.whereabouts({0.3, 0.3, 0.4 + 0.5 * l0}), Whereabouts::inside);
+  EXPECT_EQ(tank.whereabouts({0.3, 0.3, 0.4 - 1.5 * l0}), Whereabouts::through_wall);
+  Vec3d x{0.3, 0.3, 0.4 - 0.75 * l0};
+  Vec3d u{1, 0, -2};
+  EXPECT_TRUE(tank.hold(x, u));
+  EXPECT_DOUBLE_EQ(x.z, 0.4 - 0.5 * l0);
+  EXPECT_EQ(u.z, 0);
+}
+
 TEST(Tank, WhatRisesAgainstABodyThatHangsStaysUnderIt) {
   const Tank tank = tank_with_bodies();
   Vec3d x{0.7, 0.5, 0.1 + 0.75 * l0};

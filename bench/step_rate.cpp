@@ -48,7 +48,6 @@ void measure(const Case& c, const RunSettings& settings, const Stretch& stretch)
   const bench::PreparedRun run(c, settings, stretch.jitter);
   Solver& solver = *run.solver;
   run_to(solver, run.sensors, stretch.from_s, settings.output_rate_Hz);
-  const std::map<std::string, double> facts = solver.facts();
   const bench::StepMeter meter(solver);
   const double sensors_s = run_to(solver, run.sensors, stretch.to_s, settings.output_rate_Hz);
   const bench::StepMeter::Reading r = meter.read();
@@ -61,10 +60,6 @@ void measure(const Case& c, const RunSettings& settings, const Stretch& stretch)
              1e-6 * fluid * r.steps / r.wall_s, r.steps, r.wall_s);
   fmt::print("  {:8.1f} ms a step, {:.2f} s of wall time a simulated second\n", 1e3 * r.wall_s / r.steps,
              r.wall_s / r.simulated_s);
-  if (const auto pairs = facts.find("pairs_in_reach"); pairs != facts.end())
-    fmt::print(
-        "  {:8.1f} neighbours a fluid particle, {:.0f} million one-sided pair interactions a second and thread\n",
-        pairs->second / fluid, 1e-6 * pairs->second * r.steps / r.wall_s / settings.threads);
   if (r.iterations_a_step > 0) fmt::print("  {:8.1f} iterations a step\n", r.iterations_a_step);
   fmt::print("  {:8.0f} bytes a particle\n", bytes / (fluid + static_cast<double>(solver.solid_count())));
   for (const auto& [phase, phase_s] : r.phases) fmt::print("  {:6.1f} %  {}\n", 100 * phase_s / r.wall_s, phase);

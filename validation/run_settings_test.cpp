@@ -97,6 +97,8 @@ TEST(RunSettings, ImpossibleValuesAreRefused) {
   EXPECT_THAT(refusal(request), HasSubstr("courant"));
   request.overrides = {{"restart_interval", 2.5}};
   EXPECT_THAT(refusal(request), HasSubstr("restart_interval"));
+  request.overrides = {{"restart_interval", 1e10}};
+  EXPECT_THAT(refusal(request), HasSubstr("restart_interval: is 10000000000"));
   request = {};
   request.snapshot_every_s = 1e-9;
   EXPECT_THAT(refusal(request), HasSubstr("snapshot-every"));

@@ -18,6 +18,13 @@ double wave_speed_m_s(const Case& c) {
   return std::sqrt(-c.gravity_m_s2.z * c.water_height_m);
 }
 
+void require_count(const std::map<std::string, double>& p, const char* key, const char* what) {
+  constexpr double most = 1e9;
+  const double value = p.at(key);
+  if (value != std::round(value) || value < 1 || value > most)
+    throw std::invalid_argument(fmt::format("{}: is {}, must be a whole number of {}, 1 or more", key, value, what));
+}
+
 std::map<std::string, double> complete_wcsph(const Case& c, std::map<std::string, double> p) {
   const wcsph::Parameters defaults;
   p.try_emplace("alpha", defaults.alpha);
@@ -32,9 +39,7 @@ std::map<std::string, double> complete_wcsph(const Case& c, std::map<std::string
   // A speed of sound given in m/s counts; the ratio then follows it.
   if (!p.contains("speed_of_sound_m_s")) p["speed_of_sound_m_s"] = p["speed_of_sound_over_sqrt_gH"] * wave_speed_m_s(c);
   p["speed_of_sound_over_sqrt_gH"] = p["speed_of_sound_m_s"] / wave_speed_m_s(c);
-  if (p["restart_interval"] != std::round(p["restart_interval"]) || p["restart_interval"] < 1)
-    throw std::invalid_argument(
-        fmt::format("restart_interval: is {}, must be a whole number of steps, 1 or more", p["restart_interval"]));
+  require_count(p, "restart_interval", "steps");
   if (p["speed_of_sound_m_s"] <= 0)
     throw std::invalid_argument(
         fmt::format("speed_of_sound_m_s: is {}, must be greater than zero", p["speed_of_sound_m_s"]));
@@ -87,6 +92,7 @@ std::map<std::string, double> complete_mps(const Case&, std::map<std::string, do
   p.try_emplace("wall_contact_over_distance", defaults.wall_contact_over_distance);
   p.try_emplace("tolerance", defaults.tolerance);
   p.try_emplace("most_iterations", defaults.most_iterations);
+  require_count(p, "most_iterations", "iterations");
   p.try_emplace("multigrid", 1.0);
   if (p["multigrid"] != 0 && p["multigrid"] != 1)
     throw std::invalid_argument(fmt::format("multigrid: is {}, must be 1 (or 0 for Jacobi)", p["multigrid"]));

@@ -7,8 +7,9 @@
 // (Lee, Park, Kim and Hwang 2011, Comput. Methods Appl. Mech. Eng. 200:1113).
 //
 // Walls: the same model between fluid and wall particles makes the wall as rough as its lattice, and a front that runs
-// over it is held back (see solvers/README.md). So a wall is met along its normal: a particle nearer to the wall's
-// layer than Parameters::wall_contact_over_distance loses what velocity it has into the wall, and keeps the rest.
+// over it is held back (see solvers/README.md). So a wall is met along its normal: a particle that is
+// nearer to the wall's layer than Parameters::wall_contact_over_distance, or would be within the step, loses what
+// velocity it has into the wall, and keeps the rest.
 #pragma once
 
 #include <cstdint>

@@ -17,10 +17,11 @@ constexpr double slice_over_distance = 0.5;
 
 Parameters checked(const Parameters& p) {
   require(p.particle_distance_m > 0, "particle_distance_m", p.particle_distance_m, "positive");
-  require(p.effective_radius_over_distance >= 1.5 && p.effective_radius_over_distance <= 4,
-          "effective_radius_over_distance", p.effective_radius_over_distance, "in [1.5, 4]");
+  require(p.effective_radius_over_distance >= 1.7 && p.effective_radius_over_distance <= 3,
+          "effective_radius_over_distance", p.effective_radius_over_distance,
+          "in [1.7, 3] (normals need neighbours out to 1.75 l0; walls have two layers of dummies)");
   require(p.viscosity_m2_s >= 0, "viscosity_m2_s", p.viscosity_m2_s, "zero or more");
-  require(p.kappa_c_m_s2_kg >= 0, "kappa_c_m_s2_kg", p.kappa_c_m_s2_kg, "zero or more");
+  require(p.kappa_c_m_s2_kg > 0, "kappa_c_m_s2_kg", p.kappa_c_m_s2_kg, "positive");
   require(p.kappa_r > 0 && p.kappa_r <= 1, "kappa_r", p.kappa_r, "in (0, 1]");
   require(p.tolerated_crowding >= 0, "tolerated_crowding", p.tolerated_crowding,
           "zero or more (100 leaves kappa_r as it is)");

@@ -33,7 +33,8 @@ class SparseRows {
     spans_.resize(rows);
     used_ = overread;
   }
-  /// Doubles the room if the last filling did not fit. True if it did not: then it must be repeated.
+  /// Makes room for a quarter more than the last filling took, if that did not fit: then it must be repeated. True if
+  /// so.
   bool grew_for_more() {
     if (used_.load() <= room()) return false;
     const std::size_t wanted = used_.load() + used_.load() / 4;

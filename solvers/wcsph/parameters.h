@@ -28,13 +28,15 @@ struct Parameters {
   /// N_s: steps between restart forms of the Verlet scheme. The paper's 40 lets the scheme's odd-even mode grow:
   /// density diffusion damps at about 7 delta c0 / h, the leap turns that into growth, and at delta = 0.1 and Cr = 0.2
   /// forty steps multiply the mode more than a restart takes from it, so that a still tank comes to the boil in two
-  /// seconds. Twenty do not (wcsph_verification_test.cpp shows both).
+  /// seconds. Twenty do not (wcsph_verification_test.cpp shows both, without a tension limit, which holds the mode down
+  /// too).
   int restart_interval = 20;
   /// The greatest tension of the fluid over rho_0 c_0^2: a hundredth goes with the hundredth by which the speed of
   /// sound lets the density vary. The equation of state allows 1/7: a knot of spray draws itself together with it until
   /// the time step collapses, and long before that it sets every step. 1, as in the paper: no limit.
   double tension_limit = 0.01;
-  /// Share of the artificial viscosity that acts between fluid and walls: 1 as between fluid particles, 0 slip.
+  /// Share of the artificial viscosity that acts between fluid and walls: 1 as between fluid particles, 0 slip (which
+  /// the project's cases choose with extrapolated walls).
   double wall_friction = 1;
   WallModel walls = WallModel::extrapolated;
 

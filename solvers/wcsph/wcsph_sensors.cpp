@@ -148,19 +148,6 @@ ParticleSnapshot WcsphSolver<Pack>::snapshot() const {
   return s;
 }
 
-template <class Pack>
-std::int64_t WcsphSolver<Pack>::count_pairs() const {
-  std::int64_t pairs = 0;
-  const auto n = static_cast<std::int64_t>(fluid_.n);
-#pragma omp parallel for num_threads(threads_) schedule(dynamic, 256) reduction(+ : pairs)
-  for (std::int64_t i = 0; i < n; ++i) {
-    const Vec3d x = fluid_.position.template at<double>(static_cast<std::size_t>(i));
-    for_each_near(sorted_fluid(), x, [&](std::size_t, double) { ++pairs; });
-    for_each_near(sorted_walls().sorted, x, [&](std::size_t, double) { ++pairs; });
-  }
-  return pairs - n;
-}
-
 template class WcsphSolver<FloatPack>;
 template class WcsphSolver<double>;
 

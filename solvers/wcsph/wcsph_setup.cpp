@@ -26,12 +26,22 @@ Parameters checked(const Parameters& p) {
   require(p.alpha >= 0, "alpha", p.alpha, "zero or more");
   require(p.delta >= 0 && p.delta <= 1, "delta", p.delta, "in [0, 1]");
   require(p.gamma == 7, "gamma", p.gamma, "7, the only exponent this solver has");
-  require(p.kernel_radius_over_distance >= 2 && p.kernel_radius_over_distance <= 6, "kernel_radius_over_distance",
-          p.kernel_radius_over_distance, "in [2, 6]");
+  require(p.kernel_radius_over_distance >= 2 && p.kernel_radius_over_distance <= 4, "kernel_radius_over_distance",
+          p.kernel_radius_over_distance, "in [2, 4] (fluid on the two sides of a plate is 4 l0 apart)");
   require(p.wall_friction >= 0 && p.wall_friction <= 1, "wall_friction", p.wall_friction, "in [0, 1]");
   require(p.tension_limit >= 0 && p.tension_limit <= 1, "tension_limit", p.tension_limit, "in [0, 1]");
   require(p.restart_interval >= 1, "restart_interval", p.restart_interval, "one or more");
   return p;
+}
+
+/// Fluid half a particle distance in front of a wall reaches through the layers that extrapolate its pressure.
+void require_thick_walls(const Scene& scene, const Parameters& p) {
+  const int needed = static_cast<int>(std::ceil(p.kernel_radius_over_distance - 0.5));
+  if (p.walls != WallModel::extrapolated || scene.description.wall_layers >= needed) return;
+  throw std::invalid_argument(fmt::format(
+      "wall_layers = {}: extrapolated walls need {} layers with kernel_radius_over_distance = {:g}, so that "
+      "the kernel of fluid at a wall ends within it",
+      scene.description.wall_layers, needed, p.kernel_radius_over_distance));
 }
 
 RowGeometry rows(const Tank& tank, const Parameters& p) {
@@ -51,6 +61,7 @@ WcsphSolver<Pack>::WcsphSolver(const Scene& scene, const Parameters& parameters,
       wall_index_(rows(tank_, parameters_)),
       wall_proximity_(wall_index_),
       moving_walls_(scene) {
+  require_thick_walls(scene, parameters_);
   place_walls(scene);
   place_fluid(scene);
   if (parameters_.walls == WallModel::dynamic) {
@@ -151,7 +162,6 @@ std::map<std::string, double> WcsphSolver<Pack>::facts() const {
           {"h_m", parameters_.smoothing_length_m()},
           {"sorts", static_cast<double>(sorts_)},
           {"held_at_walls", static_cast<double>(held_)},
-          {"pairs_in_reach", static_cast<double>(count_pairs())},
           {"lanes", static_cast<double>(Lanes<Pack>::width)}};
 }
 

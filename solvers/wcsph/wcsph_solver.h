@@ -55,8 +55,6 @@ class WcsphSolver final : public Solver {
   const PairConstants<Pack>& constants() const { return constants_; }
   /// Replaces velocity and density deviation of the fluid particle with an id: for tests with known answers.
   void set_fluid(std::int32_t id, const Vec3d& velocity_m_s, double density_deviation_kg_m3);
-  /// Ordered pairs (fluid particle, another particle within the kernel's radius) at this instant.
-  std::int64_t count_pairs() const;
 
  private:
   void place_fluid(const Scene& scene);

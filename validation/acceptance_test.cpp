@@ -287,5 +287,17 @@ TEST_F(AcceptanceTest, BrokenRunDirectoriesAreNamed) {
   EXPECT_THROW(read_run(directory / "nowhere"), std::runtime_error);
 }
 
+TEST(Measurements, ASeriesInAnotherUnitIsLeftOutAndTold) {
+  Case c = load_case("kleefsman");
+  const auto sensor = std::find_if(c.sensors.begin(), c.sensors.end(), [](const auto& s) { return s.name == "P1"; });
+  ASSERT_NE(sensor, c.sensors.end());
+  ASSERT_NE(Measurements::load(c).find("P1"), nullptr);
+  sensor->kind = SensorKind::wave_height;
+  const Measurements measured = Measurements::load(c);
+  EXPECT_EQ(measured.find("P1"), nullptr);
+  ASSERT_EQ(measured.problems().size(), 1U);
+  EXPECT_THAT(measured.problems().front(), AllOf(HasSubstr("is in Pa, sensor P1 in m"), HasSubstr("digest")));
+}
+
 }  // namespace
 }  // namespace sluice

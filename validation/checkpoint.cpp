@@ -198,6 +198,9 @@ std::string text_of(const FileArchive& archive, const std::string& name) {
 Handle open_file(const fs::path& file) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are told by exceptions, not on stderr
   if (!fs::exists(file)) fail(file, "no such file: this run left no checkpoint; start it anew with `sluice run`");
+  if (const Descriptor readable(file, O_RDONLY | O_CLOEXEC); readable.id() < 0)
+    fail(file, fmt::format("cannot be opened ({}); check its permissions and the disk",
+                           std::generic_category().message(errno)));
   if (H5Fis_hdf5(file.c_str()) <= 0) fail(file, fmt::format("is no HDF5 file, or cut short; {}", remedy));
   Handle h5(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!h5.valid()) fail(file, fmt::format("cannot be opened: it is cut short or damaged; {}", remedy));

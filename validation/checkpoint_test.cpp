@@ -268,6 +268,71 @@ TEST_F(ResumeTest, RowsBehindTheCheckpointAreCutOff) {
   EXPECT_EQ(contents(parts / "probes.csv"), contents(directory / "whole" / "probes.csv"));
 }
 
+/// Makes that the next checkpoint finds no room.
+void fill_disk(const fs::path& run) {
+  fs::create_symlink("/dev/full", (run / checkpoint_file).string() + ".part");
+}
+
+TEST_F(ResumeTest, AnInterruptionWithoutACheckpointIsAnError) {
+  const fs::path out = directory / "full";
+  trouble = [&](FakeSolver& solver) {
+    if (solver.steps() == 30) fill_disk(out);
+    if (solver.steps() == 30) std::raise(SIGTERM);
+  };
+  const RunOutcome outcome = run(out);
+  EXPECT_EQ(outcome.status, "interrupted") << "a campaign ends with it";
+  EXPECT_EQ(outcome.exit_code, 1) << "nobody puts it back into a queue";
+  EXPECT_THAT(outcome.error, AllOf(HasSubstr("without a checkpoint"), HasSubstr("No space left")));
+  EXPECT_EQ(read_run(out).text("error"), outcome.error);
+}
+
+TEST_F(ResumeTest, SnapshotsThatFindNoRoomAreToldAndTheRunGoesOn) {
+  const fs::path out = directory / "full";
+  trouble = [&](FakeSolver& solver) {
+    if (solver.steps() == 30) {
+      fs::remove_all(out / "snapshots");
+      std::ofstream(out / "snapshots") << "in the way";
+    }
+  };
+  EXPECT_EQ(run(out).status, "finished");
+  const auto warnings = read_run(out).warnings();
+  EXPECT_THAT(warnings, testing::Contains(HasSubstr("snapshots")));
+}
+
+TEST_F(ResumeTest, ACheckpointWithoutItsManifestIsNobodyElses) {
+  const fs::path out = directory / "left";
+  trouble = [](FakeSolver& solver) {
+    if (solver.steps() == 30) std::raise(SIGTERM);
+  };
+  run(out);
+  fs::remove(out / "run.json");
+  EXPECT_THROW(run(out), std::runtime_error) << "a new run could be gone on with from it";
+  trouble = nullptr;
+  RunOptions anew;
+  anew.out = out;
+  anew.force = true;
+  anew.factory = factory;
+  EXPECT_EQ(run_case(c, resolve_settings(c, request), anew).status, "finished");
+}
+
+TEST_F(ResumeTest, WhatAnOlderProgramLacksIsNamed) {
+  const fs::path out = directory / "older";
+  trouble = [](FakeSolver& solver) {
+    if (solver.steps() == 30) std::raise(SIGTERM);
+  };
+  run(out);
+  nlohmann::json header = read_checkpoint_header(out / checkpoint_file);
+  header.at("settings").at("parameters").erase("courant");
+  Rememberer state;
+  write_checkpoint(out / checkpoint_file, header, state);
+  try {
+    resume(out);
+    FAIL() << "accepted";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("checkpoint.h5"), HasSubstr("no parameter courant")));
+  }
+}
+
 TEST_F(ResumeTest, RefusesWhatItCannotGoOnWith) {
   const auto refusal = [&](const fs::path& out) -> std::string {
     try {

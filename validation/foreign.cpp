@@ -10,8 +10,10 @@
 #include <set>
 
 #include "validation/curve.h"
+#include "validation/file_error.h"
 #include "validation/file_hash.h"
 #include "validation/manifest.h"
+#include "validation/metrics.h"
 #include "validation/printable.h"
 #include "validation/suggest.h"
 #include "validation/text_table.h"
@@ -170,6 +172,15 @@ std::vector<double> all_times(const std::vector<ProbeTable>& tables, Window wind
   return times;
 }
 
+/// Between the times of other files a hole would pass for a straight line.
+void refuse_gap(const ProbeTable& table, Window window) {
+  const auto gap = first_gap({table.times_s(), table.times_s()}, window);
+  if (gap)
+    fail(table.path(), fmt::format("has no rows between {:.6g} and {:.6g} s, where the other files of its map go on; "
+                                   "complete it, or give it a map of its own, whose report then shows the gap",
+                                   gap->begin_s, gap->end_s));
+}
+
 /// The series of all tables at all their times, over what all of them cover: no sample of any is lost.
 ProbeTable joined(const ForeignMap& map, std::vector<ProbeTable> tables, std::vector<std::string>& warnings) {
   if (tables.size() == 1) return std::move(tables.front());
@@ -179,6 +190,7 @@ ProbeTable joined(const ForeignMap& map, std::vector<ProbeTable> tables, std::ve
     all = {std::min(all.begin_s, t.times_s().front()), std::max(all.end_s, t.times_s().back())};
     shared = {std::max(shared.begin_s, t.times_s().front()), std::min(shared.end_s, t.times_s().back())};
   }
+  for (const ProbeTable& t : tables) refuse_gap(t, shared);
   std::vector<double> times = all_times(tables, shared);
   if (times.empty())
     throw std::runtime_error(fmt::format(

@@ -13,7 +13,8 @@
 //   columns = [ { sensor = "P1", column = "Press_0", unit = "kPa", offset = 0.0 } ]
 //
 // A column is named as in the header line, or counted from 1 on. Values become SI; `offset` is added first, in the
-// column's own unit. Series of later files are interpolated to the times of the first within the range of both.
+// column's own unit. Series of several files are joined at all their times within what all of them cover; a file that
+// has a gap there is refused.
 #pragma once
 
 #include <cstdint>

@@ -147,6 +147,21 @@ TEST_F(ForeignTest, NoSampleOfAFinerFileIsLost) {
   EXPECT_NEAR(t.values("H1_m")[2], 0.0142, 1e-12);
 }
 
+// The finer file's times would make a straight line of it, which no report could tell from a result.
+TEST_F(ForeignTest, AGapIsNotBridgedByTheTimesOfAnotherFile) {
+  std::string pressures = "t,p\n";
+  std::string heights = "t,h\n";
+  for (int k = 0; k <= 1000; ++k) {
+    if (k <= 400 || k >= 600) pressures += fmt::format("{},{}\n", 1e-3 * k, k);
+    heights += fmt::format("{},1\n", 1e-3 * k);
+  }
+  write("a.csv", pressures);
+  write("b.csv", heights);
+  EXPECT_THAT(refusal(mapped("a.csv", "s", "P1", "p", "Pa") + mapped("b.csv", "s", "H1", "h", "m")),
+              AllOf(HasSubstr("a.csv: has no rows between 0.4 and 0.6 s"), HasSubstr("a map of its own")));
+  EXPECT_EQ(read(mapped("a.csv", "s", "P1", "p", "Pa")).rows(), 802U) << "by itself the report shows it";
+}
+
 TEST_F(ForeignTest, BadFilesAreRefusedByLine) {
   EXPECT_THAT(refusal(plain), AllOf(HasSubstr("a.csv"), HasSubstr("cannot be opened")));
   write("a.csv", "");
@@ -166,7 +181,7 @@ TEST_F(ForeignTest, BadFilesAreRefusedByLine) {
   write("a.csv", "time_s,P1_Pa,H2_m\n0;1,0\n");
   EXPECT_THAT(refusal(plain), HasSubstr("a.csv:2"));
   write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0,7\n");
-  EXPECT_THAT(refusal(plain), AllOf(HasSubstr("a.csv:2"), HasSubstr("4 fields")));
+  EXPECT_THAT(refusal(plain), AllOf(HasSubstr("a.csv:2"), HasSubstr("4 fields"), HasSubstr("decimal commas")));
 }
 
 TEST_F(ForeignTest, GapsAreLeftOutOnRequestAndTold) {

@@ -45,11 +45,18 @@ Measurements Measurements::load(const Case& c) {
   for (const CaseSensor& sensor : c.sensors) {
     const auto digest = digests.find(c.measured_file(sensor));
     if (digest == digests.end()) continue;
-    if (digest->second.has(sensor.measured))
-      all.series_.emplace(sensor.name, shifted(digest->second.series(sensor.measured), sensor.measured_shift_s));
-    else
+    if (!digest->second.has(sensor.measured)) {
       all.problems_.push_back(fmt::format("{} has no series {}, which the case names for sensor {}",
                                           digest->first.generic_string(), sensor.measured, sensor.name));
+      continue;
+    }
+    const MeasuredSeries& series = digest->second.series(sensor.measured);
+    if (series.unit != unit_of(sensor.kind))
+      all.problems_.push_back(fmt::format("{}: {} is in {}, sensor {} in {} (make the digest anew in that unit)",
+                                          digest->first.generic_string(), sensor.measured, series.unit, sensor.name,
+                                          unit_of(sensor.kind)));
+    else
+      all.series_.emplace(sensor.name, shifted(series, sensor.measured_shift_s));
   }
   return all;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <stdexcept>
 
@@ -13,43 +12,20 @@
 namespace sluice {
 namespace {
 
-// Memory beside the solver's: the scene (positions in double precision) lives while the solver is set up, and the
-// process itself takes some.
+// Memory beside the solver's: the scene (positions in double precision) while the solver is set up; later, in its
+// place, the checkpoint, of which there are two copies while it is written; and what the process itself takes.
 constexpr double scene_bytes_per_particle = 40;
+constexpr double checkpoint_bytes_per_fluid_particle = 2 * 90;
+constexpr double checkpoint_bytes_per_solid_particle = 2 * 8;
 constexpr std::int64_t process_bytes = 64 << 20;
 
-std::optional<std::int64_t> read_number(const char* file) {
-  std::ifstream in(file);
-  std::int64_t value = 0;
-  if (in >> value) return value;
-  return std::nullopt;  // absent, or the word "max"
-}
-
-std::optional<std::int64_t> system_available_bytes() {
-  std::ifstream in("/proc/meminfo");
-  for (std::string key, unit; in >> key;) {
-    std::int64_t kibibytes = 0;
-    in >> kibibytes >> unit;
-    if (key == "MemAvailable:") return kibibytes * 1024;
-  }
-  return std::nullopt;
-}
-
-// Version 2 of control groups, or else version 1, as seen from inside a container.
-std::optional<std::int64_t> group_available_bytes() {
-  auto limit = read_number("/sys/fs/cgroup/memory.max");
-  auto used = read_number("/sys/fs/cgroup/memory.current");
-  if (!limit) {
-    limit = read_number("/sys/fs/cgroup/memory/memory.limit_in_bytes");
-    used = read_number("/sys/fs/cgroup/memory/memory.usage_in_bytes");
-  }
-  if (!limit || !used) return std::nullopt;
-  return std::max<std::int64_t>(0, *limit - *used);
-}
-
 std::int64_t memory_for(const ParticleCounts& n, double bytes_per_particle) {
-  const double bytes =
-      (static_cast<double>(n.fluid) + static_cast<double>(n.solid)) * (bytes_per_particle + scene_bytes_per_particle);
+  const auto fluid = static_cast<double>(n.fluid);
+  const auto solid = static_cast<double>(n.solid);
+  const double beside =
+      std::max((fluid + solid) * scene_bytes_per_particle,
+               fluid * checkpoint_bytes_per_fluid_particle + solid * checkpoint_bytes_per_solid_particle);
+  const double bytes = (fluid + solid) * bytes_per_particle + beside;
   return static_cast<std::int64_t>(std::min(bytes, 9e18)) + process_bytes;
 }
 
@@ -93,21 +69,14 @@ Plan plan_run(const Case& c, const RunSettings& settings) {
   return plan;
 }
 
-std::optional<std::int64_t> available_memory_bytes() {
-  const auto system = system_available_bytes();
-  const auto group = group_available_bytes();
-  if (!system) return group;
-  if (!group) return system;
-  return std::min(*system, *group);
-}
-
 void refuse_if_too_large(const Case& c, const RunSettings& settings, const Plan& plan,
-                         std::optional<std::int64_t> available_bytes) {
+                         std::optional<std::int64_t> available_bytes, bool begun) {
   if (!available_bytes || plan.memory_bytes <= *available_bytes) return;
-  const double l0_m = fitting_l0_m(c, settings, *available_bytes);
-  const std::string remedy = l0_m > 0
-                                 ? fmt::format("use --l0 {:g} or more, or free some memory", l0_m)
-                                 : "free some memory: the coarsest particles that resolve the case do not fit either";
+  const double l0_m = begun ? 0 : fitting_l0_m(c, settings, *available_bytes);
+  const std::string remedy = begun      ? "free some memory, or go on with it where there is more"
+                             : l0_m > 0 ? fmt::format("use --l0 {:g} or more, or free some memory", l0_m)
+                                        : "free some memory: the coarsest particles that resolve the case do not fit "
+                                          "either";
   throw std::runtime_error(fmt::format("l0 = {:g} m needs about {} of memory, {} are available ({})", settings.l0_m,
                                        human_bytes(static_cast<double>(plan.memory_bytes)),
                                        human_bytes(static_cast<double>(*available_bytes)), remedy));

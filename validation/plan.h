@@ -30,13 +30,10 @@ struct Plan {
 /// Throws std::invalid_argument when the geometry cannot be built at this particle distance.
 Plan plan_run(const Case& c, const RunSettings& settings);
 
-/// Memory that this process may still take [bytes]: what the system has available, and what a control group leaves.
-/// nullopt when the system does not tell.
-std::optional<std::int64_t> available_memory_bytes();
-
-/// Throws std::runtime_error when the plan does not fit; the message names the particle distance that would.
+/// Throws std::runtime_error when the plan does not fit; the message names the particle distance that would, but for a
+/// run that was begun elsewhere and keeps its own.
 void refuse_if_too_large(const Case& c, const RunSettings& settings, const Plan& plan,
-                         std::optional<std::int64_t> available_bytes);
+                         std::optional<std::int64_t> available_bytes, bool begun = false);
 
 /// Two lines for people.
 std::string describe(const Plan& plan, std::optional<std::int64_t> available_bytes);

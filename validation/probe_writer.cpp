@@ -109,13 +109,23 @@ void ProbeWriter::append(double t_s, std::span<const double> values) {
   buffer_ += '\n';
   last_t_s_ = t_s;
   ++rows_;
-  if (buffer_.size() > buffer_limit_bytes || std::chrono::steady_clock::now() - last_flush_ > flush_interval) flush();
+  if (!flush_is_due()) return;
+  try {
+    flush();
+  } catch (const std::runtime_error&) {
+    if (std::chrono::steady_clock::now() - last_flush_ > patience) throw;
+  }
+}
+
+bool ProbeWriter::flush_is_due() const {
+  return buffer_.size() > buffer_limit_bytes || std::chrono::steady_clock::now() - last_flush_ > flush_interval;
 }
 
 void ProbeWriter::flush() {
   if (!file_ || buffer_.empty()) return;
   write_buffer();
   buffer_.clear();
+  trouble_.clear();
   last_flush_ = std::chrono::steady_clock::now();
 }
 
@@ -131,18 +141,25 @@ void ProbeWriter::write_buffer() {
     return;
   }
   const int cause = errno;
-  std::fclose(std::exchange(file_, nullptr));
   // Half a row would make the whole file unreadable: cut back to what was complete.
   std::error_code ignored;
   if (std::filesystem::is_regular_file(path_, ignored)) std::filesystem::resize_file(path_, bytes_on_disk_, ignored);
-  throw std::runtime_error(fmt::format(
+  std::clearerr(file_);
+  std::fseek(file_, 0, SEEK_END);
+  trouble_ = fmt::format(
       "{}: cannot be written ({}); free space on that disk or write to another one (rows up to byte {} are kept)",
-      path_.string(), std::generic_category().message(cause), bytes_on_disk_));
+      path_.string(), std::generic_category().message(cause), bytes_on_disk_);
+  throw std::runtime_error(trouble_);
 }
 
 void ProbeWriter::close() {
   if (!file_) return;
-  flush();
+  try {
+    flush();
+  } catch (...) {
+    std::fclose(std::exchange(file_, nullptr));
+    throw;
+  }
   if (std::fclose(std::exchange(file_, nullptr)) != 0) {
     throw std::runtime_error(fmt::format("{}: cannot be closed ({}); check the disk", path_.string(),
                                          std::generic_category().message(errno)));

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "validation/available_memory.h"
 #include "validation/checkpoint.h"
 #include "validation/interrupt.h"
 #include "validation/manifest.h"
@@ -83,6 +84,16 @@ RunHeader header_of(const fs::path& directory) {
   }
 }
 
+/// Parameters that this program has and an older one had not: what it did without them is not known here.
+void refuse_missing_parameters(const fs::path& directory, const RunHeader& header) {
+  for (const std::string& name : solver_parameter_names(header.settings.solver))
+    if (!header.settings.parameters.contains(name))
+      throw std::runtime_error(fmt::format(
+          "{}: was written by an older program ({}), whose {} had no parameter {}; go on with that program, "
+          "or start the run anew with `sluice run ... --force`",
+          (directory / checkpoint_file).string(), header.commit, header.settings.solver, name));
+}
+
 void refuse_changed_case(const Case& c, const RunHeader& header) {
   if (c.hash == header.case_hash) return;
   throw std::runtime_error(
@@ -118,6 +129,7 @@ RunOutcome resume_run(const fs::path& directory, const ResumeOptions& options) {
   RunHeader header = header_of(directory);
   const Case c = load_case(header.case_file);
   refuse_changed_case(c, header);
+  refuse_missing_parameters(directory, header);
   if (options.threads > 0) header.settings.threads = options.threads;
   RunOptions run_options;
   run_options.out = directory;
@@ -126,7 +138,7 @@ RunOutcome resume_run(const fs::path& directory, const ResumeOptions& options) {
   run_options.checkpoint_every_s = options.checkpoint_every_s;
   run_options.factory = options.factory;
   refuse_if_too_large(c, header.settings, plan_run(c, header.settings),
-                      options.available_memory_bytes ? options.available_memory_bytes : available_memory_bytes());
+                      options.available_memory_bytes ? options.available_memory_bytes : available_memory_bytes(), true);
   RunLog log(directory / "log.txt", true);
   say_if_unlocked(run_options, log, lock);
   const InterruptGuard guard;

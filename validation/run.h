@@ -41,8 +41,8 @@ struct ResumeOptions {
 
 struct RunOutcome {
   std::string status;     ///< "finished", "interrupted" or "failed", as in run.json
-  std::string error;      ///< of a failed run
-  int exit_code = 0;      ///< 0; 1 failed; 128 + signal when interrupted
+  std::string error;      ///< of a failed run, or of one that was interrupted and could not write its checkpoint
+  int exit_code = 0;      ///< 0; 1 where there is an error; 128 + signal when interrupted
   bool advanced = false;  ///< made a time step, from where it began or was resumed
 };
 

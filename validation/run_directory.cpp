@@ -37,6 +37,8 @@ const json* find(const json& root, std::string_view dotted) {
 std::string manifest_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
+  if (in && in.peek() == std::ifstream::traits_type::eof())
+    throw std::runtime_error(fmt::format("{}: is empty ({})", file.string(), what_suffices));
   if (!in || !(text << in.rdbuf()))
     throw std::runtime_error(fmt::format(
         "{}: no such file (a run directory needs run.json with \"case\", \"solver\" and \"l0_m\")", file.string()));

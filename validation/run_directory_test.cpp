@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace sluice {
@@ -31,6 +33,19 @@ TEST(RunDirectory, ThreeLinesSuffice) {
   EXPECT_FALSE(run.own);
   EXPECT_EQ(run.label(), "interFoam, l0 = 0.02 m");
   EXPECT_FALSE(run.number("particles.fluid").has_value());
+}
+
+TEST(RunDirectory, AnEmptyManifestIsNotAMissingOne) {
+  const std::filesystem::path directory = std::filesystem::temp_directory_path() / "sluice-empty-manifest";
+  std::filesystem::create_directories(directory);
+  std::ofstream(directory / "run.json").flush();
+  try {
+    read_run(directory);
+    FAIL() << "accepted";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("run.json: is empty"), HasSubstr("\"case\"")));
+  }
+  std::filesystem::remove_all(directory);
 }
 
 TEST(RunDirectory, WarningsAreTheTextsAmongThem) {

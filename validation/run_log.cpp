@@ -24,7 +24,8 @@ std::string status_of(const fs::path& manifest_file) {
 }
 
 void remove_old_run(const fs::path& directory) {
-  for (const char* name : {"run.json", "probes.csv", "log.txt", "snapshots.pvd", checkpoint_file})
+  // The checkpoint first: left behind, it would come to belong to the new run.
+  for (const char* name : {checkpoint_file, "run.json", "probes.csv", "log.txt", "snapshots.pvd"})
     fs::remove(directory / name);
   if (!fs::is_directory(directory / "snapshots")) return;
   for (const auto& entry : fs::directory_iterator(directory / "snapshots"))
@@ -37,9 +38,10 @@ RunLock prepare_run_directory(const fs::path& directory, bool force) {
   try {
     fs::create_directories(directory);
     RunLock lock(directory);
-    if (!fs::exists(directory / "run.json")) return lock;
+    const bool has_checkpoint = fs::exists(directory / checkpoint_file);
+    if (!fs::exists(directory / "run.json") && !has_checkpoint) return lock;
     const std::string status = status_of(directory / "run.json");
-    if (!force && fs::exists(directory / checkpoint_file))
+    if (!force && has_checkpoint)
       throw std::runtime_error(
           fmt::format("{}: holds a run that can go on, status {} (`sluice resume {}` does that; --force replaces it)",
                       directory.string(), status, directory.string()));

@@ -118,7 +118,7 @@ void RunLoop::advance() {
   if (options_.log_steps) log_.line(step_text());
   sample_if_due();
   if (const std::string text = progress_.update(state()); !text.empty()) log_.line(text);
-  if (seconds_since(last_manifest_) > manifest_interval_s) refresh_manifest();
+  if (seconds_since(last_manifest_) > manifest_interval_s) unless_disk_fails([&] { refresh_manifest(); });
   if (options_.checkpoint_every_s > 0 && seconds_since(last_checkpoint_) > options_.checkpoint_every_s)
     save_checkpoint();
 }
@@ -130,13 +130,24 @@ void RunLoop::sample_if_due() {
     const Stopwatch watch(tally_.sensors_s);
     sensors_.sample(*solver_, values_);
     probes_.append(solver_->time_s(), values_);
+    if (!probes_.trouble().empty()) warn(probes_.trouble() + "; rows wait in memory");
     next_sample_ = static_cast<std::int64_t>(std::floor(now_s * settings_.output_rate_Hz)) + 1;
   }
   bool due = false;
   for (; next_snapshot_ < settings_.snapshot_times_s.size() && settings_.snapshot_times_s[next_snapshot_] <= now_s;
        ++next_snapshot_)
     due = true;
-  if (due) write_snapshot();
+  if (due) unless_disk_fails([&] { write_snapshot(); });
+}
+
+// What a full disk keeps from being written now may be written later, or be done without: no reason to stop.
+template <class Output>
+void RunLoop::unless_disk_fails(Output&& output) {
+  try {
+    output();
+  } catch (const std::exception& error) {
+    warn(error.what());
+  }
 }
 
 void RunLoop::write_snapshot() {
@@ -147,8 +158,11 @@ void RunLoop::write_snapshot() {
 
 RunOutcome RunLoop::ending() {
   if (solver_->time_s() >= settings_.t_end_s) return {"finished", "", 0};
-  save_checkpoint();
-  return {"interrupted", "", 128 + InterruptGuard::signal()};
+  const int signal = InterruptGuard::signal();
+  const std::string problem = save_checkpoint();
+  if (problem.empty()) return {"interrupted", "", 128 + signal};
+  return {"interrupted", fmt::format("stopped by signal {} without a checkpoint of where it was: {}", signal, problem),
+          1};
 }
 
 // Every part may fail on a full disk; the first failure is the one to tell.
@@ -160,7 +174,10 @@ void RunLoop::close(RunOutcome& outcome) {
       if (outcome.status != "failed") outcome = {"failed", error.what(), 1};
     }
   };
-  keep_first_error([&] { probes_.close(); });
+  keep_first_error([&] {
+    probes_.flush_to_disk();
+    probes_.close();
+  });
   keep_first_error([&] {
     bring_up_to_date();
     manifest_["status"] = outcome.status;
@@ -184,18 +201,18 @@ void RunLoop::bring_up_to_date() {
 
 void RunLoop::refresh_manifest() {
   const Stopwatch watch(tally_.output_s);
+  last_manifest_ = Clock::now();
   bring_up_to_date();
   write_manifest(options_.out, manifest_);
-  last_manifest_ = Clock::now();
 }
 
-// A checkpoint that cannot be written is no reason to stop: the one before is still there. Rows that cannot are. What a
-// checkpoint counts on must be on the disk before it.
-void RunLoop::save_checkpoint() {
+// A checkpoint that cannot be written is no reason to stop: the one before is still there. What a checkpoint counts on
+// must be on the disk before it. Returns what went wrong, or "".
+std::string RunLoop::save_checkpoint() {
   const Stopwatch watch(tally_.output_s);
   last_checkpoint_ = Clock::now();
-  probes_.flush_to_disk();
   try {
+    probes_.flush_to_disk();
     bring_up_to_date();
     RunPoint point{tally_,
                    probes_.position(),
@@ -212,16 +229,25 @@ void RunLoop::save_checkpoint() {
     write_checkpoint(options_.out / checkpoint_file,
                      to_json({settings_, case_file_, case_hash_, build_info().commit, std::move(point)}), *solver_);
     log_.line(fmt::format("checkpoint at t = {:.6f} s, step {}", solver_->time_s(), solver_->steps()));
+    return "";
   } catch (const std::exception& error) {
-    log_.line(fmt::format("warning: no checkpoint: {}", error.what()));
-    add_warning(fmt::format("no checkpoint at t = {:.4f} s: {}", solver_->time_s(), error.what()));
+    warn(fmt::format("no checkpoint at t = {:.4f} s: {}", solver_->time_s(), error.what()));
+    return error.what();
   }
 }
 
-// Told once, however often a run goes on.
-void RunLoop::add_warning(const std::string& text) {
+// Kept once, however often a run goes on. Returns whether it is new.
+bool RunLoop::add_warning(const std::string& text) {
   auto& warnings = manifest_["warnings"];
-  if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
+  if (std::find(warnings.begin(), warnings.end(), text) != warnings.end()) return false;
+  warnings.push_back(text);
+  return true;
+}
+
+void RunLoop::warn(const std::string& text) {
+  if (!add_warning(text)) return;
+  log_.line("warning: " + text);
+  if (options_.progress != nullptr) tell(options_.progress, "warning: " + text + "\n");
 }
 
 // The particles as a failed step left them, so that the failure can be looked into.

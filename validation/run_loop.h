@@ -54,8 +54,11 @@ class RunLoop {
   void close(RunOutcome& outcome);
   void bring_up_to_date();
   void refresh_manifest();
-  void save_checkpoint();
-  void add_warning(const std::string& text);
+  std::string save_checkpoint();
+  template <class Output>
+  void unless_disk_fails(Output&& output);
+  void warn(const std::string& text);
+  bool add_warning(const std::string& text);
   void keep_state();
   std::string step_text() const;
   RunState state() const;

@@ -92,9 +92,10 @@ class ProbeWriter {
   ProbeWriter& operator=(const ProbeWriter&) = delete;
 
   /// One row; `values` in the order of the names. Throws std::invalid_argument when the number of values is wrong or
-  /// the time does not increase, std::runtime_error when a value is not finite (naming column and time) or the disk is
-  /// full.
+  /// the time does not increase, std::runtime_error when a value is not finite (naming column and time) or the disk has
+  /// taken nothing for as long as `patience`: until then rows wait in memory.
   void append(double t_s, std::span<const double> values);
+  /// Throws std::runtime_error when the disk is full; the rows are not lost, a later flush may write them.
   void flush();
   /// Flushes, and returns when all of it would survive a power cut.
   void flush_to_disk();
@@ -103,14 +104,20 @@ class ProbeWriter {
   /// Flushes and closes; the destructor does the same but cannot report an error.
   void close();
   std::int64_t rows() const { return rows_; }
+  /// What keeps rows from being written, or "".
+  const std::string& trouble() const { return trouble_; }
+
+  std::chrono::steady_clock::duration patience = std::chrono::minutes{10};
 
  private:
   void write_buffer();
+  bool flush_is_due() const;
 
   std::filesystem::path path_;
   std::vector<std::string> names_;
   std::FILE* file_ = nullptr;
   std::string buffer_;
+  std::string trouble_;
   std::uintmax_t bytes_on_disk_ = 0;
   std::chrono::steady_clock::time_point last_flush_;
   double last_t_s_ = 0;

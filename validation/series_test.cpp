@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "validation/file_hash.h"
 #include "validation/text_table.h"
@@ -115,7 +116,7 @@ TEST_F(ProbesFile, ErrorsNameLineAndColumn) {
   EXPECT_EQ(complaint("t_s,P1_Pa\n0,1\n1,nan\n"), ":3: P1_Pa: nan is not finite; leave the row out");
   EXPECT_EQ(complaint("t_s,P1_Pa\n0,-inf\n"), ":2: P1_Pa: -inf is not finite; leave the row out");
   EXPECT_EQ(complaint("t_s,P1_Pa\n0,1e999\n"), ":2: P1_Pa: \"1e999\" does not fit a double");
-  EXPECT_EQ(complaint("t_s,P1_Pa\n0,1,2\n").substr(0, 41), ":2: 3 fields where 2 columns are named; a");
+  EXPECT_EQ(complaint("t_s,P1_Pa\n0,1,2\n").substr(0, 41), ":2: 3 fields where 2 columns are named; i");
   EXPECT_EQ(complaint("t_s,P1_Pa\n0,1\n0.00").substr(0, 41), ":3: 1 fields where 2 columns are named; a");
   EXPECT_EQ(complaint("t_s,P1_Pa\n0,1\n\n1,2\n"), ":4: a row after a blank line; delete blank lines between rows");
   EXPECT_EQ(complaint("t_s,P1_Pa\n1,1\n0.5,2\n"),
@@ -236,6 +237,31 @@ TEST_F(ProbesFile, ADiskThatFillsUpLeavesWholeRows) {
   }
   EXPECT_EQ(text(), "t_s,P1_Pa\n0,1\n");
   EXPECT_EQ(read_probes(path_).rows(), 1u);
+}
+
+TEST_F(ProbesFile, RowsWaitForADiskThatIsFull) {
+  ProbeWriter writer(path_, {"P1_Pa"});
+  {
+    const FileSizeLimit limit(20);
+    writer.append(0, std::vector<double>{1});
+    writer.append(1, std::vector<double>{123456789});
+    EXPECT_THROW(writer.flush(), std::runtime_error);
+    EXPECT_NE(writer.trouble().find("free space on that disk"), std::string::npos);
+    writer.append(2, std::vector<double>{3});
+  }
+  writer.flush();
+  EXPECT_EQ(writer.trouble(), "");
+  EXPECT_EQ(text(), "t_s,P1_Pa\n0,1\n1,123456789\n2,3\n");
+}
+
+TEST_F(ProbesFile, RowsDoNotWaitForEver) {
+  ProbeWriter writer(path_, {"P1_Pa"});
+  writer.patience = {};
+  const FileSizeLimit limit(20);
+  const std::string before = text();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // until a flush is due
+  EXPECT_THROW(writer.append(0, std::vector<double>{123456789}), std::runtime_error);
+  EXPECT_EQ(text(), before) << "whole rows only";
 }
 
 TEST_F(ProbesFile, ManyRowsTakeNoLongerEach) {

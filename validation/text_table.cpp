@@ -150,9 +150,10 @@ std::size_t TextTableReader::count_fields(char separator) {
 
 double TextTableReader::number(std::string_view field, const std::string& name, bool decimal_comma) const {
   std::string with_point;
+  if (decimal_comma && field.find('.') != std::string_view::npos)
+    fail(fmt::format("{}: \"{}\" has a point where decimal commas were announced; write thousands without one", name,
+                     printable(field)));
   if (decimal_comma && field.find(',') != std::string_view::npos) {
-    if (field.find('.') != std::string_view::npos)
-      fail(fmt::format("{}: \"{}\" has a point where decimal commas were announced", name, printable(field)));
     with_point = field;
     with_point[with_point.find(',')] = '.';
     field = with_point;
@@ -184,8 +185,10 @@ bool TextTableReader::read_row(std::string_view line, const std::vector<std::str
     }
   }
   if (count != names.size()) {
-    fail(fmt::format("{} fields where {} columns are named; a line cut off at the end of the file can be deleted",
-                     count, names.size()));
+    fail(fmt::format("{} fields where {} columns are named; {}", count, names.size(),
+                     count > names.size() && form.separator == ','
+                         ? "if numbers have decimal commas, columns need another separator"
+                         : "a line cut off at the end of the file can be deleted"));
   }
   if (!complete) return false;
   for (std::size_t k = 0; k < names.size(); ++k)

@@ -51,6 +51,12 @@ TEST(TextTable, MixedSeparatorsAreNamed) {
                   .starts_with("x.csv:2: t: \"1.5,2\" is not a number"));
 }
 
+TEST(TextTable, APointIsNoDecimalPointWhereCommasAre) {
+  EXPECT_TRUE(
+      complaint("0,415;999\n0,416;11.239\n", {.separator = ';', .decimal_comma = true})
+          .starts_with("x.csv:2: p: \"11.239\" has a point where decimal commas were announced; write thousands"));
+}
+
 TEST(TextTable, MessagesStayReadable) {
   EXPECT_EQ(complaint("0,\x1b[2Jx\n").substr(0, 23), "x.csv:1: p: \"\\x1b[2Jx\" ");
   EXPECT_LT(complaint("0," + std::string(100'000, 'x') + "\n").size(), 400u);

@@ -198,7 +198,7 @@ int compute_only(const Campaign& campaign, const CampaignArguments& arguments) {
     return 0;
   }
   const RunOutcome outcome = compute(campaign, run, arguments, std::nullopt);
-  if (outcome.status == "failed") throw std::runtime_error(fmt::format("{}: {}", arguments.only, outcome.error));
+  if (!outcome.error.empty()) throw std::runtime_error(fmt::format("{}: {}", arguments.only, outcome.error));
   // Who puts an interrupted run back into a queue must not do so for ever.
   if (outcome.status == "interrupted" && !outcome.advanced)
     throw std::runtime_error(

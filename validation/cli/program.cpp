@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <exception>
+#include <system_error>
 #include <vector>
 
 #include "validation/cli/usage_error.h"
@@ -34,6 +36,7 @@ int run_program(const ProgramText& text, AddCommands add_commands, int argc, cha
     tell(stderr, fmt::format("{}: error: {}\n", text.name, message));
     return code;
   };
+  std::signal(SIGPIPE, SIG_IGN);  // who reads what is told may go; the computation does not end with it
   int exit_code = 0;
   CLI::App app(text.description, text.name);
   app.footer(text.examples);
@@ -50,6 +53,8 @@ int run_program(const ProgramText& text, AddCommands add_commands, int argc, cha
     return complain(std::string(error.what()) + " (see --help)", usage_exit_code);
   } catch (const UsageError& error) {
     return complain(error.what(), usage_exit_code);
+  } catch (const std::system_error& error) {
+    return error.code() == std::errc::broken_pipe ? 1 : complain(error.what(), 1);
   } catch (const std::exception& error) {
     return complain(error.what(), 1);
   }

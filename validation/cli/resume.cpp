@@ -27,7 +27,7 @@ int resume(ResumeArguments& arguments) {
   arguments.options.progress = stderr;
   arguments.options.terminal = isatty(STDERR_FILENO) == 1;
   const RunOutcome outcome = resume_run(arguments.directory, arguments.options);
-  if (outcome.status == "failed")
+  if (!outcome.error.empty())
     throw std::runtime_error(fmt::format("{} (see {}/log.txt)", outcome.error, arguments.directory));
   tell(stderr, fmt::format("{}; results in {}\n", outcome.status, arguments.directory));
   return outcome.exit_code;

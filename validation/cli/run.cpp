@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/available_memory.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/usage_error.h"
 #include "validation/plan.h"
@@ -70,7 +71,7 @@ int run(const CLI::App& command, RunArguments& arguments) {
   options.progress = stderr;
   options.terminal = isatty(STDERR_FILENO) == 1;
   const RunOutcome outcome = run_case(c, settings, options);
-  if (outcome.status == "failed")
+  if (!outcome.error.empty())
     throw std::runtime_error(outcome.error + " (see " + (options.out / "log.txt").string() + ")");
   tell(stderr, fmt::format("{}; results in {}\n", outcome.status, options.out.string()));
   return outcome.exit_code;

@@ -64,22 +64,21 @@ bool is_current(const Case& c, const fs::path& directory) {
          record.text("case_hash") == c.hash && difference_of_legs(record.manifest).empty();
 }
 
-// Exit code of the run: 0, 1 where it failed, or that of the signal that ends `validate` too. Throws where it is
-// refused.
-int run_once(const Case& c, const ValidateArguments& arguments, const RunRequest& request, const fs::path& directory) {
+// Throws where the run is refused.
+RunOutcome run_once(const Case& c, const ValidateArguments& arguments, const RunRequest& request,
+                    const fs::path& directory) {
   if (arguments.reuse && is_current(c, directory)) {
     tell(stderr, fmt::format("{}: reused\n", directory.string()));
-    return 0;
+    return {"finished"};
   }
   RunOptions options;
   options.out = directory;
   options.force = true;  // the directory is this command's own
   options.progress = stderr;
   options.terminal = isatty(STDERR_FILENO) == 1;
-  const RunOutcome outcome = run_case(c, resolve_settings(c, request), options);
-  if (outcome.status == "failed")
-    tell(stderr, fmt::format("sluice: error: {}: {}\n", directory.string(), outcome.error));
-  return outcome.exit_code;
+  RunOutcome outcome = run_case(c, resolve_settings(c, request), options);
+  if (!outcome.error.empty()) tell(stderr, fmt::format("sluice: error: {}: {}\n", directory.string(), outcome.error));
+  return outcome;
 }
 
 // The default wall model first: if time runs out, it is what counts.
@@ -157,12 +156,12 @@ Computed compute(const Case& c, const ValidateArguments& arguments, const Tier& 
     const fs::path directory = fs::path(arguments.runs) /
                                fmt::format("validate-{}-{}-{}-{}", tier.name, c.name, request.solver, request.walls);
     try {
-      const int code = run_once(c, arguments, request, directory);
-      if (code > 128) {
-        computed.interrupted = code;
+      const RunOutcome outcome = run_once(c, arguments, request, directory);
+      if (outcome.status == "interrupted") {
+        computed.interrupted = outcome.exit_code;
         return computed;
       }
-      computed.any_failed = computed.any_failed || code != 0;
+      computed.any_failed = computed.any_failed || outcome.exit_code != 0;
       if (fs::exists(directory / "probes.csv"))
         computed.directories.push_back(directory);  // else it failed at its start
     } catch (const std::exception& error) {

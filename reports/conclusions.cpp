@@ -64,14 +64,23 @@ std::vector<WallsScope> alpha_scopes(const ReportData& data) {
   return scopes_of(walls);
 }
 
+namespace {
+
+/// Whether a run stands for its method as the case has it: of this program, whole, with the case's parameters.
+bool stands_for_its_method(const AnalysedRun& run, const Case& c) {
+  return run.record.own && run.record.status() == "finished" && changed_parameters(run.record, c).empty();
+}
+
+}  // namespace
+
 BothMethods finest_of_both(const ReportData& data, const WallsScope& scope) {
   BothMethods finest;
   for (const AnalysedRun& run : data.runs) {
-    if (!run.record.own || run.record.solver != "mps") continue;
+    if (run.record.solver != "mps" || !stands_for_its_method(run, data.the_case)) continue;
     BothMethods both;
     both.l0_m = run.record.l0_m;
     for (const AnalysedRun& other : data.runs) {
-      if (!other.record.own || std::abs(other.record.l0_m - both.l0_m) > 1e-9) continue;
+      if (!stands_for_its_method(other, data.the_case) || !same_flow(data, run.record, other.record)) continue;
       if (other.record.solver == "mps") both.mps.push_back(&other);
       if (other.record.solver == "wcsph" && scope.has(other)) both.wcsph.push_back(&other);
     }

@@ -13,6 +13,7 @@
 #include "reports/studies.h"
 #include "reports/text.h"
 #include "solvers/snapshot.h"
+#include "validation/printable.h"
 
 namespace sluice {
 
@@ -162,8 +163,8 @@ int first_moving_arrow(const Case& the_case) {
 std::string snapshot_script_head(const Case& the_case, const SnapshotFrame& frame, const std::string& name,
                                  const std::string& label) {
   const double total = frame.total_px;
-  std::string script = fmt::format(fmt::runtime(snapshots_head), label, 2 * panel_width_px, frame.total_px, name,
-                                   frame.left, frame.right, frame.bottom, frame.top);
+  std::string script = fmt::format(fmt::runtime(snapshots_head), printable(label), 2 * panel_width_px, frame.total_px,
+                                   name, frame.left, frame.right, frame.bottom, frame.top);
   script += fmt::format("set multiplot layout {},2 margins 0.01,0.99,{:.4f},{:.4f} spacing 0.01,{:.4f}\n", frame.rows,
                         bar_px / total, 1.0 - 30.0 / total, title_px / total);
   int arrow = first_moving_arrow(the_case);

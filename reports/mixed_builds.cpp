@@ -1,8 +1,11 @@
-// Studies take runs as alike in all but one thing. A build is such a thing too.
+// Studies take runs as alike in all but one thing. A build is such a thing too, and so is a processor, whose vectors
+// decide the order of sums.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 #include "reports/studies.h"
 
@@ -10,29 +13,33 @@ namespace sluice {
 
 namespace {
 
-/// "The study of resolution (WCSPH ...) holds runs of several builds: 2f5db0f3 (R1, R2), 94fbc89a (R3)", or "".
-std::string mixture(const std::string& study, const std::vector<const AnalysedRun*>& runs) {
-  constexpr std::size_t shown_of_a_commit = 12;
-  std::vector<std::pair<std::string, std::vector<std::string>>> builds;
+/// "The study of resolution (WCSPH ...) holds runs of several builds: 2f5db0f3 (R1, R2), 94fbc89a (R3)", or "". Runs
+/// without the fact are other codes', whose builds are their own affair.
+std::string mixture(const std::string& study, const std::vector<const AnalysedRun*>& runs, std::string_view fact,
+                    std::string_view plural, std::size_t shown) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> kinds;
   for (const AnalysedRun* run : runs) {
-    const std::string commit = run->record.text("commit").value_or("").substr(0, shown_of_a_commit);
-    if (commit.empty()) continue;  // another code's, whose builds are its own affair
-    auto found = std::find_if(builds.begin(), builds.end(), [&](const auto& build) { return build.first == commit; });
-    if (found == builds.end()) found = builds.insert(builds.end(), {commit, {}});
+    const std::string kind = run->record.text(fact).value_or("").substr(0, shown);
+    if (kind.empty()) continue;
+    auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& known) { return known.first == kind; });
+    if (found == kinds.end()) found = kinds.insert(kinds.end(), {kind, {}});
     found->second.push_back(run->key);
   }
-  if (builds.size() < 2) return "";
+  if (kinds.size() < 2) return "";
   std::vector<std::string> parts;
-  for (const auto& [commit, keys] : builds) parts.push_back(fmt::format("{} ({})", commit, fmt::join(keys, ", ")));
-  return fmt::format("{} holds runs of several builds: {}", study, fmt::join(parts, ", "));
+  for (const auto& [kind, keys] : kinds) parts.push_back(fmt::format("{} ({})", kind, fmt::join(keys, ", ")));
+  return fmt::format("{} holds runs of several {}: {}", study, plural, fmt::join(parts, ", "));
 }
 
 }  // namespace
 
 std::vector<std::string> mixed_builds(const ReportData& data) {
+  constexpr std::size_t shown_of_a_commit = 12;
   std::vector<std::string> out;
   const auto add = [&](const std::string& study, const std::vector<const AnalysedRun*>& runs) {
-    if (std::string text = mixture(study, runs); !text.empty()) out.push_back(std::move(text));
+    for (std::string text : {mixture(study, runs, "commit", "builds", shown_of_a_commit),
+                             mixture(study, runs, "machine", "machines", std::string::npos)})
+      if (!text.empty()) out.push_back(std::move(text));
   };
   for (const ResolutionSeries& series : resolution_series(data))
     add("The study of resolution (" + series.title + ")", series.runs);

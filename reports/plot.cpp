@@ -10,6 +10,7 @@
 
 #include "reports/gnuplot.h"
 #include "reports/text.h"
+#include "validation/printable.h"
 
 namespace sluice {
 
@@ -56,7 +57,7 @@ class DataFile {
   void begin(const std::string& comment) {
     gap_ = false;
     if (blocks_++ > 0) out_ << "\n\n";
-    out_ << "# " << comment << '\n';
+    out_ << "# " << printable(comment) << '\n';
   }
   template <class... Values>
   void row(Values... values) {
@@ -243,7 +244,7 @@ std::filesystem::path draw(const PlotFigure& figure, const std::filesystem::path
   const Legend legend = legend_of(figure);
   const int panel_height = figure.panel_height_px + legend_row_px * legend.rows + legend_gap_px;
   std::string script =
-      fmt::format(fmt::runtime(script_head), figure.name, figure.source,
+      fmt::format(fmt::runtime(script_head), figure.name, printable(figure.source, 2000),
                   figure.panel_width_px * std::min(columns, std::max(1, panels)), panel_height * rows, legend.columns);
   const bool several = panels > 1;
   if (several) script += fmt::format("set multiplot layout {},{}\n", rows, columns);

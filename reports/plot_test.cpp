@@ -64,6 +64,23 @@ TEST(Draw, MakesAPictureFromAScriptThatNamesItsData) {
   EXPECT_EQ(read(out / "line.dat").find("nan"), std::string::npos);
 }
 
+/// Names of runs come from other people's files.
+TEST(Draw, RunsNothingThatStandsInAName) {
+  const auto out = folder("names");
+  const std::filesystem::path mark = out / "run.txt";
+  const std::string name = "x`touch " + mark.string() + "`\nsystem \"touch " + mark.string() + "\"\n";
+  PlotFigure figure;
+  figure.name = "names";
+  figure.source = name;
+  figure.panels.resize(1);
+  figure.panels[0].title = name;
+  figure.panels[0].x_label = name;
+  figure.panels[0].y_label = name;
+  figure.panels[0].curves.push_back({name, {0, 1}, {0, 1}, CurveLook::run, 0, false, false, {}});
+  EXPECT_NE(read(draw(figure, out)).find("<svg"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(mark));
+}
+
 TEST(Gnuplot, SaysWhatIsWrongWithAScript) {
   const auto out = folder("broken");
   std::filesystem::create_directories(out);

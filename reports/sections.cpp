@@ -139,9 +139,11 @@ void add_acceptance_section(std::vector<ReportSection>& sections, const ReportDa
   const AcceptanceCount count = count_acceptance(data);
   section.blocks.push_back(Paragraph{
       fmt::format("{} rows passed, {} failed, {} could not be evaluated.", count.passed, count.failed, count.missing)});
-  section.blocks.push_back(hint(
-      "The bounds stand in the case file, set before the runs: a value on the bound passes. Bounds of deviations are "
-      "signed, (simulated − measured) / measured."));
+  section.blocks.push_back(
+      hint("The bounds stand in the case file, which says of each group what it is: a target, or (at the quick tiers) "
+           "a band "
+           "around earlier results of the solvers here, for noticing change. A value on the bound passes. Bounds of "
+           "deviations are signed, (simulated − measured) / measured."));
   section.blocks.push_back(acceptance_matrix(data));
   sections.push_back(std::move(section));
 }
@@ -213,8 +215,9 @@ ReportSection provenance_section(const ReportData& data) {
   if (!data.the_case.published.reference.empty())
     section.blocks.push_back(Paragraph{"Published values: " + data.the_case.published.reference + " Kept as printed."});
   section.blocks.push_back(Paragraph{
-      "Every table lies beside this page as CSV (full precision) and LaTeX in `tables/`; every figure as a gnuplot "
-      "script with its data in `figures/`."});
+      "Every table lies beside this page as CSV (full precision) and LaTeX in `tables/`. `sluice report` leaves every "
+      "figure as a gnuplot script with its data in `figures/`, but for the particles of snapshots; sets that are kept "
+      "on record have the pictures only."});
   return section;
 }
 

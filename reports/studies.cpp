@@ -148,16 +148,15 @@ std::vector<PlacementSeries> placement_series(const ReportData& data) {
   return out;
 }
 
-namespace {
-
-using Runs = std::vector<const AnalysedRun*>;
-
-/// One flow at one particle distance to one end, whatever the method.
 bool same_flow(const ReportData& data, const RunRecord& a, const RunRecord& b) {
   return a.l0_m == b.l0_m && same_end(a, b) &&
          std::all_of(data.the_case.placements.begin(), data.the_case.placements.end(),
                      [&](const Placement& p) { return placed_at_m(p, a) == placed_at_m(p, b); });
 }
+
+namespace {
+
+using Runs = std::vector<const AnalysedRun*>;
 
 Runs of_solver(const Runs& runs, const std::string& solver) {
   Runs found;

@@ -14,6 +14,9 @@ namespace sluice {
 /// Pairs of runs alike in all but their wall models.
 std::vector<std::pair<const AnalysedRun*, const AnalysedRun*>> wall_pairs(const ReportData& data);
 
+/// One flow at one particle distance to one end, whatever the method.
+bool same_flow(const ReportData& data, const RunRecord& a, const RunRecord& b);
+
 /// Runs alike in all but alpha, at least two of them, smallest alpha first.
 struct AlphaSeries {
   std::string title;  ///< "WCSPH, extrapolated walls, l0 = 20 mm"

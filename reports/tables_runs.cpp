@@ -241,7 +241,7 @@ Table provenance_table(const ReportData& data) {
                    {"Commit", "commit", false},
                    {"Compiler", "compiler", false},
                    {"Flags", "flags", false},
-                   {"CPU", "cpu", false},
+                   {"Machine", "machine", false},
                    {"Threads", "threads"},
                    {"Wall time", "wall_time_s"},
                    {"CPU time", "cpu_time_s"},
@@ -255,9 +255,9 @@ Table provenance_table(const ReportData& data) {
     if (through.value) through.tone = *through.value > 0 ? Tone::bad : Tone::good;
     table.add({word(run.label), word(run.directory), text_cell(r.text("started")), status_cell(r.status()),
                text_cell(r.text("commit")), text_cell(r.text("compiler")), text_cell(r.text("flags")),
-               text_cell(r.text("cpu")), whole(r.number("threads")), time_cell(r.number("wall_time_s")),
-               time_cell(r.number("cpu_time_s")), text_cell(r.text("case_hash")), text_cell(r.text("data_hash")),
-               whole(r.number("lost.over_top")), through});
+               text_cell(r.text(r.text("machine") ? "machine" : "cpu")), whole(r.number("threads")),
+               time_cell(r.number("wall_time_s")), time_cell(r.number("cpu_time_s")), text_cell(r.text("case_hash")),
+               text_cell(r.text("data_hash")), whole(r.number("lost.over_top")), through});
   }
   std::string measured;
   for (const MeasuredFile& file : data.measured.files())

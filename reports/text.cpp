@@ -203,16 +203,19 @@ std::string escape_csv(std::string_view text) {
 }
 
 std::string escape_gnuplot(std::string_view text) {
-  // Enhanced text is read twice: once as a double-quoted string, once for markup; hence two backslashes.
-  static constexpr std::array<Replacement, 9> map = {{{"\\", "/"},
-                                                      {"\"", "''"},
-                                                      {"_", "\\\\_"},
-                                                      {"^", "\\\\^"},
-                                                      {"{", "\\\\{"},
-                                                      {"}", "\\\\}"},
-                                                      {"@", "\\\\@"},
-                                                      {"&", "\\\\&"},
-                                                      {"\n", " "}}};
+  // Enhanced text is read twice: once as a double-quoted string, once for markup; hence two backslashes. What stands
+  // between backquotes in such a string would be run as a command.
+  static constexpr std::array<Replacement, 11> map = {{{"\\", "/"},
+                                                       {"`", "'"},
+                                                       {"\r", " "},
+                                                       {"\"", "''"},
+                                                       {"_", "\\\\_"},
+                                                       {"^", "\\\\^"},
+                                                       {"{", "\\\\{"},
+                                                       {"}", "\\\\}"},
+                                                       {"@", "\\\\@"},
+                                                       {"&", "\\\\&"},
+                                                       {"\n", " "}}};
   return replace_characters(text, map);
 }
 

@@ -43,6 +43,7 @@ TEST(Text, EscapesForEachFormat) {
   EXPECT_EQ(escape_csv("a,\"b\""), "\"a,\"\"b\"\"\"");
   EXPECT_EQ(escape_markdown_cell("a|b*c_d"), "a\\|b\\*c\\_d");
   EXPECT_EQ(escape_gnuplot("l_0 \"x\""), "l\\\\_0 ''x''");
+  EXPECT_EQ(escape_gnuplot("a`touch x`\rb"), "a'touch x' b") << "would be run as a command";
 }
 
 TEST(Text, InlineMarksBecomeElementsAndNothingElseDoes) {

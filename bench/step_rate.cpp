@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <exception>
-#include <map>
 #include <string>
 #include <vector>
 

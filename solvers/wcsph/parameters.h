@@ -1,5 +1,6 @@
 // The parameters of the WCSPH solver, with the paper's values as defaults, but for the restart interval, the limit of
-// tension and the walls.
+// tension and the walls. Not a parameter, and not in the paper: density does not fall below m W(0), that of a particle
+// which is alone.
 #pragma once
 
 #include <string>

@@ -37,6 +37,8 @@ class Tank {
 
   /// Walls are impermeable: a particle whose centre is between half and one particle distance behind a face is set back
   /// to half of one, and loses its velocity into the wall (relative to it, where it moves). Returns whether it was.
+  /// Bodies count one by one: where two touch, nothing is held or counted in a slot as wide as a particle distance
+  /// around their common face; there the walls' pressures alone keep fluid out.
   bool hold(Vec3d& p_m, Vec3d& u_m_s) const;
 
   /// Holds every wall particle, on all its way, and all positions that are `inside` with one particle distance to

@@ -69,7 +69,7 @@ RunOutcome run_once(const Case& c, const ValidateArguments& arguments, const Run
                     const fs::path& directory) {
   if (arguments.reuse && is_current(c, directory)) {
     tell(stderr, fmt::format("{}: reused\n", directory.string()));
-    return {"finished"};
+    return {"finished", "", 0};
   }
   RunOptions options;
   options.out = directory;

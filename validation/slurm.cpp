@@ -98,11 +98,16 @@ constexpr const char* task_begin = R"(
 sluice=
 at_limit=
 heard=
-trap 'at_limit=1; heard=1; echo "$run: told to make room"; kill -TERM "$sluice"' USR1
+told=
+tell() {
+  [[ -z $sluice || $told ]] || { told=1; kill -TERM "$sluice"; }
+}
+trap 'at_limit=1; heard=1; echo "$run: told to make room"; tell' USR1
 trap 'heard=1' TERM
 )";
 constexpr const char* task_end = R"( &
 sluice=$!
+[[ -z $at_limit ]] || tell # what came before its number was known
 wait "$sluice"
 code=$?
 while [[ $heard ]]; do

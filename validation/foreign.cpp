@@ -91,7 +91,9 @@ char parse_separator(TomlReader& reader) {
 
 ForeignFile parse_file(TomlReader& reader, const Case& c, const fs::path& folder) {
   ForeignFile f;
-  f.file = folder / reader.text("file");
+  const std::string name = reader.text("file");
+  if (printable(name, name.size()) != name) reader.fail("file", "holds a control character; rename the file");
+  f.file = folder / name;
   f.separator = parse_separator(reader);
   f.decimal_comma = reader.flag_or("decimal_comma", false);
   f.skip_incomplete_rows = reader.flag_or("skip_incomplete_rows", false);

@@ -227,6 +227,7 @@ TEST_F(ForeignTest, BadMapsAreRefusedByLineAndKey) {
                    "= \"Pa\" }")),
       HasSubstr("given twice"));
   EXPECT_THAT(refusal("[[files]]\nfile = \"a.csv\"\ndecimal_comma = true\n"), HasSubstr("decimal_comma"));
+  EXPECT_THAT(refusal("[[files]]\nfile = \"a\\tcsv\"\n"), AllOf(HasSubstr("m.toml:"), HasSubstr("control character")));
 }
 
 TEST_F(ForeignTest, OneColumnMayFeedTimeAndSensors) {

@@ -37,6 +37,11 @@ std::vector<WallsScope> scopes_of(const std::vector<std::string>& walls) {
   return scopes;
 }
 
+/// Whether a run stands for its method as the case has it: of this program, whole, with the case's parameters.
+bool stands_for_its_method(const AnalysedRun& run, const Case& c) {
+  return run.record.own && run.record.status() == "finished" && changed_parameters(run.record, c).empty();
+}
+
 }  // namespace
 
 void add(Table& table, const std::string& statement, const std::string& paper, const Evidence& ours) {
@@ -63,15 +68,6 @@ std::vector<WallsScope> alpha_scopes(const ReportData& data) {
   for (const AlphaSeries& series : alpha_series(data)) remember(walls, series.runs.front()->record.walls);
   return scopes_of(walls);
 }
-
-namespace {
-
-/// Whether a run stands for its method as the case has it: of this program, whole, with the case's parameters.
-bool stands_for_its_method(const AnalysedRun& run, const Case& c) {
-  return run.record.own && run.record.status() == "finished" && changed_parameters(run.record, c).empty();
-}
-
-}  // namespace
 
 BothMethods finest_of_both(const ReportData& data, const WallsScope& scope) {
   BothMethods finest;

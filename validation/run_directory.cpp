@@ -37,7 +37,7 @@ const json* find(const json& root, std::string_view dotted) {
 std::string manifest_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
-  if (in && in.peek() == std::ifstream::traits_type::eof())
+  if (in && in.peek() == std::ifstream::traits_type::eof() && !in.bad())  // bad: a directory
     throw std::runtime_error(fmt::format("{}: is empty ({})", file.string(), what_suffices));
   if (!in || !(text << in.rdbuf()))
     throw std::runtime_error(fmt::format(

@@ -107,6 +107,7 @@ class ProbeWriter {
   /// What keeps rows from being written, or "".
   const std::string& trouble() const { return trouble_; }
 
+  /// How long rows wait for a disk that is full before append() gives up.
   std::chrono::steady_clock::duration patience = std::chrono::minutes{10};
 
  private:

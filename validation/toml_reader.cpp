@@ -88,7 +88,7 @@ toml::table parse_toml(std::string_view text, const std::string& file) {
 std::string read_text(const std::filesystem::path& file, std::string_view remedy) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
-  if (in && in.peek() == std::ifstream::traits_type::eof())
+  if (in && in.peek() == std::ifstream::traits_type::eof() && !in.bad())  // bad: a directory
     throw CaseError(fmt::format("{}: is empty ({})", file.string(), remedy));
   if (!in || !(text << in.rdbuf())) throw CaseError(fmt::format("{}: cannot be read ({})", file.string(), remedy));
   return text.str();

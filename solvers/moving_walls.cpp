@@ -24,4 +24,10 @@ double MovingWalls::travel_m(double from_s, double to_s) const {
   return std::sqrt(longest2);
 }
 
+bool MovingWalls::change(double from_s, double to_s) const {
+  return std::any_of(motions_.begin(), motions_.end(), [&](const RigidMotion& m) {
+    return m.displacement_m(from_s) != m.displacement_m(to_s) || m.velocity_at(from_s) != m.velocity_at(to_s);
+  });
+}
+
 }  // namespace sluice

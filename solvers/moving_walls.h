@@ -15,6 +15,9 @@ class MovingWalls {
   bool any() const { return !particles_.empty(); }
   /// How far the body that moves most goes between two times   [m]
   double travel_m(double from_s, double to_s) const;
+  /// Whether a body is elsewhere or moves at another velocity at the second time: one that starts there has its
+  /// velocity already, but is still where it was.
+  bool change(double from_s, double to_s) const;
 
   /// Calls visit(wall, position, velocity) for every particle of a body that moves; `wall` is its place in
   /// Scene::walls.

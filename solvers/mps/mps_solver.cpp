@@ -38,7 +38,7 @@ void MpsSolver<Pack>::move() {
         i, particles_.position.template at<double>(i) + constants_.dt_s * particles_.velocity.template at<double>(i));
   }
   const double end_s = time_s_ + constants_.dt_s;
-  if (moving_walls_.travel_m(time_s_, end_s) > 0) bring_walls_to(end_s);
+  if (moving_walls_.change(time_s_, end_s)) bring_walls_to(end_s);
 }
 
 template <class Pack>

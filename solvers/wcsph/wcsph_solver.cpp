@@ -70,9 +70,9 @@ void WcsphSolver<Pack>::advance(double dt_s) {
 /// What a wall travels counts with what the fluid does: the search allows for how far the two move against each other.
 template <class Pack>
 void WcsphSolver<Pack>::move_walls(double dt_s) {
-  const double moved_m = moving_walls_.travel_m(time_s_, time_s_ + dt_s);
-  if (moved_m == 0) return;
+  if (!moving_walls_.change(time_s_, time_s_ + dt_s)) return;
   set_moving_walls(time_s_ + dt_s);
+  const double moved_m = moving_walls_.travel_m(time_s_, time_s_ + dt_s);
   travel_m_ += moved_m;
   wall_travel_m_ += moved_m;
 }

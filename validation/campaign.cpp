@@ -9,6 +9,7 @@
 
 #include "validation/checkpoint.h"
 #include "validation/manifest.h"
+#include "validation/run_checkpoint.h"
 #include "validation/toml_reader.h"
 
 namespace sluice {
@@ -33,8 +34,14 @@ std::size_t case_index(TomlReader& reader, Campaign& campaign, const fs::path& f
   const std::string name = reader.text("case");
   const bool is_path = fs::path(name).extension() == ".toml";
   Case c = load_case_for(reader, is_path ? (file.parent_path() / name).string() : name);
-  for (std::size_t i = 0; i < campaign.cases.size(); ++i)
-    if (campaign.cases[i].file == c.file) return i;
+  for (std::size_t i = 0; i < campaign.cases.size(); ++i) {
+    std::error_code gone;
+    if (fs::equivalent(campaign.cases[i].file, c.file, gone)) return i;
+    // Runs and reports are named by it.
+    if (campaign.cases[i].name == c.name)
+      reader.fail("case", fmt::format("{} and {} both call themselves {} (give one another name)",
+                                      campaign.cases[i].file.string(), c.file.string(), c.name));
+  }
   campaign.cases.push_back(std::move(c));
   return campaign.cases.size() - 1;
 }
@@ -118,8 +125,13 @@ bool same_inputs(const json& manifest, const Case& c, const RunSettings& s) {
          is("t_end_s", s.t_end_s) && is("output_rate_Hz", s.output_rate_Hz) && is("parameters", s.parameters);
 }
 
-double number_of(const json& manifest, const char* key) {
-  return manifest.contains(key) && manifest[key].is_number() ? manifest[key].get<double>() : 0;
+/// Where a run goes on; its manifest may be of later. Zero where the checkpoint cannot be read: the run will tell.
+double checkpoint_time_s(const fs::path& directory) {
+  try {
+    return run_header_from(read_checkpoint_header(directory / checkpoint_file)).point.probes.last_t_s;
+  } catch (const std::exception&) {
+    return 0;
+  }
 }
 
 std::string text_of(const json& manifest, const char* key) {
@@ -180,13 +192,14 @@ std::string to_string(CampaignState state) {
   return "";
 }
 
-CampaignEstimate estimate(const Campaign& campaign, const CampaignRun& run, const std::vector<RunCost>& costs) {
+CampaignEstimate estimate(const Campaign& campaign, const CampaignRun& run, const std::vector<RunCost>& costs,
+                          bool anew) {
   CampaignEstimate e;
   const Case& c = campaign.case_of(run);
   e.plan = plan_run(c, run.settings);
   reckon_by(costs, c, run.settings, e.plan);
-  if (state_of(campaign, run) == CampaignState::resumable)
-    e.done_share = std::min(1.0, number_of(manifest_of(run.directory), "time_s") / run.settings.t_end_s);
+  if (!anew && state_of(campaign, run) == CampaignState::resumable)
+    e.done_share = std::clamp(checkpoint_time_s(run.directory) / run.settings.t_end_s, 0.0, 1.0);
   return e;
 }
 

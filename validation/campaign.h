@@ -68,8 +68,9 @@ struct CampaignEstimate {
   double done_share = 0;  ///< of a run that can be resumed
   double remaining_s() const { return (1 - done_share) * plan.wall_time_s; }
 };
-/// By what runs have cost here (run_cost.h), or else by plan_run() alone.
-CampaignEstimate estimate(const Campaign& campaign, const CampaignRun& run, const std::vector<RunCost>& costs);
+/// By what runs have cost here (run_cost.h), or else by plan_run() alone. With `anew` what is there does not count.
+CampaignEstimate estimate(const Campaign& campaign, const CampaignRun& run, const std::vector<RunCost>& costs,
+                          bool anew = false);
 
 /// Of the campaign's own runs that are finished, and of others (as runs_near() finds them).
 std::vector<RunCost> known_costs(const Campaign& campaign, const std::vector<std::filesystem::path>& others);

@@ -8,8 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "validation/checkpoint.h"
+#include "validation/fake_solver.h"
 #include "validation/manifest.h"
 #include "validation/rate_probe.h"
+#include "validation/run_checkpoint.h"
 
 namespace sluice {
 namespace {
@@ -58,6 +60,18 @@ class CampaignTest : public testing::Test {
   static void put(const CampaignRun& run, const nlohmann::json& manifest) {
     fs::create_directories(run.directory);
     std::ofstream(run.directory / "run.json") << manifest;
+  }
+
+  static void put_checkpoint(const CampaignRun& run, double last_t_s) {
+    FakeSolver solver(Scene{}, 1e-3);
+    RunHeader header;
+    header.settings = run.settings;
+    header.point.probes.last_t_s = last_t_s;
+    write_checkpoint(run.directory / checkpoint_file, to_json(header), solver);
+  }
+  /// Particles of fluid that a step of WCSPH takes as long for.
+  static double work(const ParticleCounts& n) {
+    return static_cast<double>(n.fluid) + 0.4 * static_cast<double>(n.solid);
   }
 
   fs::path directory;
@@ -156,13 +170,16 @@ TEST_F(CampaignTest, TimesAreScaledFromTheNearestFinishedRunOfItsKind) {
   const CampaignEstimate e = estimate(c, fine, known_costs(c, {}));
   EXPECT_EQ(e.plan.basis, PlanBasis::run);
   EXPECT_NEAR(e.plan.steps, 1250, 1e-6);
-  EXPECT_NEAR(e.plan.wall_time_s, 10.0 * 1.25 * static_cast<double>(e.plan.particles.fluid) / 5000, 1e-6);
+  EXPECT_NEAR(e.plan.wall_time_s, 10.0 * 1.25 * work(e.plan.particles) / work({5000, 9000}), 1e-6);
   EXPECT_NE(estimate(c, c.runs[4], known_costs(c, {})).plan.basis, PlanBasis::run) << "other walls";
-  auto part = manifest(c, fine, "interrupted");
-  part["time_s"] = 1.5;
+  auto part = manifest(c, fine, "running");
+  part["time_s"] = 1.9;  // where it was killed; it goes on from its checkpoint
   put(fine, part);
-  std::ofstream(fine.directory / checkpoint_file) << "something";
+  put_checkpoint(fine, 1.5);
   EXPECT_NEAR(estimate(c, fine, known_costs(c, {})).remaining_s(), 0.25 * e.plan.wall_time_s, 1e-6);
+  EXPECT_EQ(estimate(c, fine, known_costs(c, {}), true).done_share, 0) << "computed anew";
+  std::ofstream(fine.directory / checkpoint_file) << "something";
+  EXPECT_EQ(estimate(c, fine, known_costs(c, {})).done_share, 0) << "what cannot be read";
 }
 
 TEST_F(CampaignTest, ARunBesideTheCampaignTellsTheRateOfItsKind) {
@@ -182,10 +199,10 @@ TEST_F(CampaignTest, ARunBesideTheCampaignTellsTheRateOfItsKind) {
     return estimate(c, fine, known_costs(c, others)).plan;
   };
   const Plan constants = plan_run(c.case_of(fine), fine.settings);
-  const auto fluid = static_cast<double>(constants.particles.fluid);
-  EXPECT_NEAR(plan_beside().wall_time_s, fluid * 1000 * fine.settings.t_end_s / 2.0 / (5000 * 1000 / 10.0), 1e-6);
+  const double loads = work(constants.particles) / work({5000, 9000});
+  EXPECT_NEAR(plan_beside().wall_time_s, loads * 10.0 * fine.settings.t_end_s / 2.0, 1e-6);
   done["case_hash"] = "another";  // its rate counts, its time step does not
-  EXPECT_NEAR(plan_beside().wall_time_s, fluid * constants.steps / (5000 * 1000 / 10.0), 1e-6);
+  EXPECT_NEAR(plan_beside().wall_time_s, loads * 10.0 * constants.steps / 1000, 1e-6);
   done["machine"] = "another";
   EXPECT_NE(plan_beside().basis, PlanBasis::run);
 }
@@ -258,6 +275,40 @@ TEST_F(CampaignTest, OfTwoRunsTheOneOfTheNearestAlphaCounts) {
   EXPECT_NEAR(estimate(c, run, known_costs(c, {})).plan.steps, 1000, 1e-6);
   run.settings.parameters["alpha"] = 0.004;
   EXPECT_NEAR(estimate(c, run, known_costs(c, {})).plan.steps, 1400, 1e-6);
+}
+
+TEST_F(CampaignTest, OfTwoRunsTheOneOfTheSameParametersCounts) {
+  const Campaign c = load(two_groups);
+  const CampaignRun& run = c.runs[0];
+  auto done = manifest(c, run, "finished");
+  done["wall_time_s"] = 10.0;
+  done["steps"] = 1000;
+  done["time_s"] = run.settings.t_end_s;
+  done["particles"] = {{"fluid", 5000}, {"solid", 9000}};
+  const std::vector<fs::path> others{directory / "a", directory / "b"};
+  for (const fs::path& other : others) fs::create_directories(other);
+  std::ofstream(others[1] / "run.json") << done;
+  const double planned_s = estimate(c, run, known_costs(c, others)).plan.wall_time_s;
+  done["parameters"]["courant"] = 0.02;
+  done["steps"] = 10'000;
+  done["wall_time_s"] = 300.0;
+  std::ofstream(others[0] / "run.json") << done;
+  EXPECT_EQ(estimate(c, run, known_costs(c, others)).plan.wall_time_s, planned_s);
+}
+
+/// Their reports would go to one folder.
+TEST_F(CampaignTest, CasesOfOneNameAreRefused) {
+  const std::string copy = (directory / "copy.toml").string();
+  fs::copy_file(load_case("kleefsman").file, copy);
+  const std::string group = "[[runs]]\nsolver = \"mps\"\nl0_m = [{}]\ncase = \"{}\"\n";
+  EXPECT_THAT(refusal("name = \"c\"\n" + fmt::format(fmt::runtime(group), 0.05, "kleefsman") +
+                      fmt::format(fmt::runtime(group), 0.04, copy)),
+              AllOf(HasSubstr("c.toml:9"), HasSubstr("call themselves kleefsman")));
+  fs::remove(copy);
+  fs::create_symlink(fs::absolute(load_case("kleefsman").file), copy);  // one case by two ways
+  const Campaign c = load("name = \"c\"\n" + fmt::format(fmt::runtime(group), 0.05, "kleefsman") +
+                          fmt::format(fmt::runtime(group), 0.04, copy));
+  EXPECT_EQ(c.cases.size(), 1U);
 }
 
 TEST_F(CampaignTest, ARunWithoutTheSnapshotsAskedForIsOutdated) {

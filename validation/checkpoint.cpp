@@ -202,7 +202,9 @@ Handle open_file(const fs::path& file) {
     fail(file, fmt::format("cannot be opened ({}); check its permissions and the disk",
                            std::generic_category().message(errno)));
   if (H5Fis_hdf5(file.c_str()) <= 0) fail(file, fmt::format("is no HDF5 file, or cut short; {}", remedy));
-  Handle h5(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access, false, true);  // RunLock keeps others out, also where the file system knows no locks
+  Handle h5(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);
   if (!h5.valid()) fail(file, fmt::format("cannot be opened: it is cut short or damaged; {}", remedy));
   const FileArchive archive(file, h5, true);
   const std::string identity = H5Lexists(h5, "format", H5P_DEFAULT) > 0 ? text_of(archive, "format") : "";

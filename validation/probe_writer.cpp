@@ -110,10 +110,11 @@ void ProbeWriter::append(double t_s, std::span<const double> values) {
   last_t_s_ = t_s;
   ++rows_;
   if (!flush_is_due()) return;
+  if (trouble_.empty()) trouble_since_ = std::chrono::steady_clock::now();
   try {
     flush();
   } catch (const std::runtime_error&) {
-    if (std::chrono::steady_clock::now() - last_flush_ > patience) throw;
+    if (std::chrono::steady_clock::now() - trouble_since_ > patience) throw;
   }
 }
 

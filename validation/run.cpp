@@ -58,7 +58,7 @@ RunOutcome failed_at_start(const Case& c, const RunSettings& settings, const Run
   manifest["error"] = error;
   write_manifest(options.out, manifest);
   log.line("failed: " + error);
-  return {"failed", error, 1};
+  return {"failed", error, 1, false, InterruptGuard::signal()};
 }
 
 std::string what_runs(const Case& c, const RunSettings& settings, const fs::path& out) {
@@ -94,6 +94,15 @@ void refuse_missing_parameters(const fs::path& directory, const RunHeader& heade
           (directory / checkpoint_file).string(), header.commit, header.settings.solver, name));
 }
 
+Case load_case_of(const fs::path& directory, const RunHeader& header) {
+  try {
+    return load_case(header.case_file);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(
+        fmt::format("{} (where it is now: `sluice resume {} --case FILE`)", error.what(), directory.string()));
+  }
+}
+
 void refuse_changed_case(const Case& c, const RunHeader& header) {
   if (c.hash == header.case_hash) return;
   throw std::runtime_error(
@@ -127,7 +136,7 @@ RunOutcome resume_run(const fs::path& directory, const ResumeOptions& options) {
   header_of(directory);  // what holds no run is refused before a lock is put there
   const RunLock lock(directory);
   RunHeader header = header_of(directory);
-  const Case c = load_case(header.case_file);
+  const Case c = options.the_case ? *options.the_case : load_case_of(directory, header);
   refuse_changed_case(c, header);
   refuse_missing_parameters(directory, header);
   if (options.threads > 0) header.settings.threads = options.threads;

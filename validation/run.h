@@ -31,7 +31,8 @@ struct RunOptions {
 
 /// Choices for going on with a run; all else stands in its checkpoint.
 struct ResumeOptions {
-  int threads = 0;  ///< 0: as many as before
+  std::optional<Case> the_case;  ///< none: read from where it was when the run began; must not have changed
+  int threads = 0;               ///< 0: as many as before
   std::FILE* progress = nullptr;
   bool terminal = false;
   double checkpoint_every_s = 600;
@@ -44,6 +45,10 @@ struct RunOutcome {
   std::string error;      ///< of a failed run, or of one that was interrupted and could not write its checkpoint
   int exit_code = 0;      ///< 0; 1 where there is an error; 128 + signal when interrupted
   bool advanced = false;  ///< made a time step, from where it began or was resumed
+  int signal = 0;         ///< SIGINT or SIGTERM where one came, though the run may have ended by itself; else 0
+
+  /// The exit code of a program that was told to stop meanwhile, whatever came of the run; 0 where it was not.
+  int stop_code() const { return signal == 0 ? 0 : exit_code != 0 ? exit_code : 128 + signal; }
 };
 
 /// Builds the scene and the solver, steps to the end, samples the sensors, and writes run.json, probes.csv, log.txt and

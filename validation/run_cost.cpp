@@ -10,6 +10,7 @@
 
 #include "validation/legs.h"
 #include "validation/manifest.h"
+#include "validation/solver_factory.h"
 
 namespace sluice {
 namespace {
@@ -48,6 +49,7 @@ std::optional<RunCost> cost_of(const json& m, const std::string& machine) {
   cost.time_s = m.at("time_s");
   cost.steps = m.at("steps");
   cost.fluid = m.at("particles").at("fluid");
+  cost.solid = m.at("particles").value("solid", 0.0);
   cost.wall_time_s = m.at("wall_time_s");
   const bool makes_sense = cost.l0_m > 0 && cost.time_s > 0 && cost.steps > 0 && cost.fluid > 0 && cost.wall_time_s > 0;
   return makes_sense ? std::optional(cost) : std::nullopt;
@@ -105,21 +107,25 @@ void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettin
   const RunCost* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   const double alpha = alpha_of(s.parameters);
+  const std::string parameters = all_but_alpha(s.parameters);
   for (const RunCost& cost : costs) {
     if (!is_of_kind(cost, s)) continue;
     const double apart = std::abs(std::log(cost.l0_m / s.l0_m)) + 0.35 * decades_apart(cost.alpha, alpha) +
+                         (cost.parameters == parameters || cost.probed ? 0.0 : 1.0) +
                          (cost.case_hash == c.hash ? 0.0 : 10.0) + (cost.probed ? 5.0 : 0.0);
     if (apart >= least) continue;
     least = apart;
     nearest = &cost;
   }
   if (nearest == nullptr) return;
-  if (nearest->case_hash == c.hash && nearest->parameters == all_but_alpha(s.parameters)) {
+  if (nearest->case_hash == c.hash && nearest->parameters == parameters) {
     plan.steps = nearest->steps * (nearest->l0_m / s.l0_m) * (s.t_end_s / nearest->time_s);
     plan.dt_s = s.t_end_s / plan.steps;
   }
-  const double particle_steps_per_s = nearest->fluid * nearest->steps / nearest->wall_time_s;
-  plan.wall_time_s = static_cast<double>(plan.particles.fluid) * plan.steps / particle_steps_per_s;
+  const double share = solver_cost(s).solid_over_fluid;
+  const double load = static_cast<double>(plan.particles.fluid) + share * static_cast<double>(plan.particles.solid);
+  const double load_steps_per_s = (nearest->fluid + share * nearest->solid) * nearest->steps / nearest->wall_time_s;
+  plan.wall_time_s = load * plan.steps / load_steps_per_s;
   plan.basis = nearest->probed ? PlanBasis::probe : PlanBasis::run;
 }
 

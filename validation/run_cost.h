@@ -23,6 +23,7 @@ struct RunCost {
   double time_s = 0;  ///< simulated
   double steps = 0;
   double fluid = 0;  ///< particles
+  double solid = 0;  ///< likewise
   double wall_time_s = 0;
   bool probed = false;  ///< no run, but a second of its first steps (rate_probe.h)
 };
@@ -38,10 +39,11 @@ std::vector<RunCost> run_costs(const std::vector<std::filesystem::path>& directo
 /// most 1000. `directory` need not exist.
 std::vector<std::filesystem::path> runs_near(const std::filesystem::path& directory);
 
-/// Reckons a plan's time by the particle-steps a second of the nearest of `costs` in particle distance and alpha, among
-/// those of the same solver, walls and number of threads, one of the same case before a probe, and a probe before one
-/// of another case. Where that was the same flow (case and parameters, alpha aside), its time step counts too: steps a
-/// second of flow go with 1 / l0, and hang a little on alpha. Without such a run the plan stays as it is.
+/// Reckons a plan's time by the particle-steps a second (of fluid, and of solid by its share: SolverCost) of the
+/// nearest of `costs` in particle distance, alpha and whether other parameters are the same, among those of the same
+/// solver, walls and number of threads, one of the same case before a probe, and a probe before one of another case.
+/// Where that was the same flow (case and parameters, alpha aside), its time step counts too: steps a second of flow go
+/// with 1 / l0, and hang a little on alpha. Without such a run the plan stays as it is.
 void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettings& settings, Plan& plan);
 
 /// plan_run(), its time reckoned by the runs near the directory that the run will go to.

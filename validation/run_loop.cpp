@@ -97,6 +97,7 @@ RunOutcome RunLoop::execute() {
   progress_.finish(state());
   close(outcome);
   outcome.advanced = dt_s_ > 0;
+  outcome.signal = InterruptGuard::signal();
   return outcome;
 }
 

@@ -196,6 +196,27 @@ TEST_F(RunTest, TerminationEndsCleanlyToo) {
   EXPECT_EQ(run().exit_code, 143);
 }
 
+/// Who computes one run after another must stop, whatever became of this one.
+TEST_F(RunTest, ASignalIsNotLostInARunThatEndsByItself) {
+  trouble = [](FakeSolver& solver) {
+    if (solver.steps() == 124) std::raise(SIGINT);  // in the last step
+  };
+  const RunOutcome last = run();
+  EXPECT_EQ(last.status, "finished");
+  EXPECT_EQ(last.exit_code, 0);
+  EXPECT_EQ(last.stop_code(), 130);
+  trouble = [](FakeSolver&) {
+    std::raise(SIGTERM);
+    throw std::runtime_error("out of luck");
+  };
+  options.force = true;
+  const RunOutcome failed = run();
+  EXPECT_EQ(failed.status, "failed");
+  EXPECT_EQ(failed.stop_code(), 1);
+  trouble = {};
+  EXPECT_EQ(run().stop_code(), 0);
+}
+
 TEST_F(RunTest, TheSameRequestByTwoWaysEndsCleanly) {
   trouble = [](FakeSolver& solver) {
     if (solver.steps() == 10) {

@@ -64,7 +64,7 @@ double remaining_s(const Campaign& campaign, std::size_t from, bool force, const
   double sum = 0;
   for (std::size_t i = from; i < campaign.runs.size(); ++i)
     if (force || state_of(campaign, campaign.runs[i]) != CampaignState::finished)
-      sum += estimate(campaign, campaign.runs[i], costs).remaining_s();
+      sum += estimate(campaign, campaign.runs[i], costs, force).remaining_s();
   return sum;
 }
 
@@ -74,10 +74,10 @@ double print_plan(const Campaign& campaign, bool force, const std::vector<RunCos
   std::int64_t most_bytes = 0;
   for (const CampaignRun& run : campaign.runs) {
     const CampaignState state = state_of(campaign, run);
-    const CampaignEstimate e = estimate(campaign, run, costs);
+    const CampaignEstimate e = estimate(campaign, run, costs, force);
     fmt::print("{:10} {:>9} fluid {:>9} solid {:>8} {:>14}{}  {}\n", to_string(state), e.plan.particles.fluid,
                e.plan.particles.solid, human_bytes(static_cast<double>(e.plan.memory_bytes)),
-               state == CampaignState::finished ? "" : human_time(e.remaining_s()),
+               state == CampaignState::finished && !force ? "" : human_time(e.remaining_s()),
                e.plan.basis == PlanBasis::run ? " " : "*", run.directory.filename().string());
     to_do += force || state != CampaignState::finished;
     most_bytes = std::max(most_bytes, e.plan.memory_bytes);
@@ -91,6 +91,16 @@ double print_plan(const Campaign& campaign, bool force, const std::vector<RunCos
   return planned_s;
 }
 
+/// A checkpoint that cannot be gone on with is replaced the campaign's way.
+RunOutcome resume(const fs::path& directory, const ResumeOptions& options, const CampaignArguments& arguments) {
+  try {
+    return resume_run(directory, options);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("{} [of this campaign: `sluice campaign {} --force --only {}`]", error.what(),
+                                         arguments.file, directory.filename().string()));
+  }
+}
+
 /// Without a plan it is plan_near().
 RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const CampaignArguments& arguments,
                    const std::optional<Plan>& plan) {
@@ -101,7 +111,8 @@ RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Campa
     options.progress = stderr;
     options.terminal = terminal;
     options.checkpoint_every_s = arguments.checkpoint_every_s;
-    return resume_run(run.directory, options);
+    options.the_case = campaign.case_of(run);
+    return resume(run.directory, options, arguments);
   }
   RunOptions options;
   options.out = run.directory;
@@ -126,7 +137,7 @@ int compute_all(const Campaign& campaign, const CampaignArguments& arguments, co
     tell(stderr,
          fmt::format("[{}/{}] {}; {} left of the campaign\n", i + 1, campaign.runs.size(),
                      run.directory.filename().string(), human_time(remaining_s(campaign, i, arguments.force, costs))));
-    const CampaignEstimate planned = estimate(campaign, run, costs);
+    const CampaignEstimate planned = estimate(campaign, run, costs, arguments.force);
     const auto begin = std::chrono::steady_clock::now();
     RunOutcome outcome;
     try {
@@ -138,7 +149,7 @@ int compute_all(const Campaign& campaign, const CampaignArguments& arguments, co
     tell(stderr, fmt::format("[{}/{}] {} after {}, planned {}\n", i + 1, campaign.runs.size(), outcome.status,
                              human_time(taken.count()), human_time(planned.remaining_s())));
     results.push_back({outcome.status, outcome.error});
-    if (outcome.status == "interrupted") return outcome.exit_code;
+    if (const int code = outcome.stop_code(); code != 0) return code;
   }
   return 0;
 }
@@ -147,10 +158,10 @@ int compute_all(const Campaign& campaign, const CampaignArguments& arguments, co
 bool print_results(const Campaign& campaign, const std::vector<Result>& results) {
   bool all_well = true;
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const bool failed = results[i].status == "failed";
-    all_well = all_well && !failed;
-    tell(stdout, fmt::format("{:12} {}{}\n", results[i].status, campaign.runs[i].directory.filename().string(),
-                             failed ? ": " + results[i].error : ""));
+    const std::string& error = results[i].error;
+    all_well = all_well && error.empty();
+    tell(stdout, fmt::format("{:12} {}{}{}\n", results[i].status, campaign.runs[i].directory.filename().string(),
+                             error.empty() ? "" : ": ", error));
   }
   return all_well;
 }
@@ -234,7 +245,8 @@ int compute_and_report(const Campaign& campaign, const CampaignArguments& argume
   return all_well ? 0 : 1;
 }
 
-int run_on_slurm(Campaign& campaign, const CampaignArguments& arguments, const fs::path& out) {
+/// Options of the command line before the file's; plans reckon with the threads that a task will have.
+void take_slurm_options(Campaign& campaign, const CampaignArguments& arguments) {
   SlurmOptions& slurm = campaign.slurm;
   if (!arguments.partition.empty()) slurm.partition = arguments.partition;
   if (!arguments.time_limit.empty()) slurm.time_limit = arguments.time_limit;
@@ -243,7 +255,12 @@ int run_on_slurm(Campaign& campaign, const CampaignArguments& arguments, const f
   if (arguments.force)
     throw UsageError(
         "--force: not with --engine slurm, whose tasks go on with what they find (remove the runs' folders)");
-  return submit(campaign, {arguments.file, out, arguments.checkpoint_every_s, !arguments.no_report, arguments.dry_run});
+  for (CampaignRun& run : campaign.runs) run.settings.threads = slurm.threads;
+}
+
+int run_on_slurm(const Campaign& campaign, const CampaignArguments& arguments, const fs::path& out) {
+  const bool report = !arguments.no_report && arguments.only.empty();
+  return submit(campaign, {arguments.file, out, arguments.checkpoint_every_s, report, arguments.dry_run});
 }
 
 int run(const CampaignArguments& arguments) {
@@ -255,7 +272,8 @@ int run(const CampaignArguments& arguments) {
     throw UsageError("--partition and --time-limit are for --engine slurm");
   if (arguments.report_only) return report_only(campaign, out);
   if (!arguments.only.empty()) keep_only(campaign, arguments);
-  if (!arguments.only.empty() && !arguments.dry_run) return compute_only(campaign, arguments);
+  if (!arguments.only.empty() && !arguments.dry_run && !slurm) return compute_only(campaign, arguments);
+  if (slurm) take_slurm_options(campaign, arguments);
   if (slurm && arguments.dry_run) return run_on_slurm(campaign, arguments, out);  // prints nothing but the scripts
   KnownCosts known{runs_near(out), {}};
   std::vector<RunCost> costs = known.now(campaign);

@@ -80,8 +80,15 @@ void refuse_queued(const fs::path& jobs_file) {
   if (jobs.find_first_not_of("0123456789,\n") != std::string::npos)
     throw std::runtime_error(fmt::format("{}: is not a list of job numbers (remove it)", jobs_file.string()));
   const std::string list = jobs.substr(0, jobs.find('\n'));
-  // squeue fails on numbers that the cluster has forgotten, and says so where nobody needs to see it.
-  if (run_command("squeue --noheader --format=%i --jobs=" + list + " 2>/dev/null").out.empty()) return;
+  const Answer queue = run_command("squeue --noheader --format=%i --jobs=" + list + " 2>&1");
+  // It fails on numbers that the cluster has forgotten, too.
+  const bool forgotten = queue.code != 0 && queue.out.find("Invalid job id") != std::string::npos;
+  if (forgotten || (queue.code == 0 && queue.out.empty())) return;
+  if (queue.code != 0)
+    throw std::runtime_error(
+        fmt::format("squeue does not tell whether this campaign is in the queue already, as jobs {}: {} (try again "
+                    "when it answers)",
+                    list, printable(queue.out.substr(0, queue.out.find('\n')))));
   throw std::runtime_error(
       fmt::format("this campaign is in the queue already, as jobs {} (wait for them, or `scancel {}`; then the same "
                   "command goes on)",
@@ -104,6 +111,10 @@ int submit(const Campaign& campaign, const Submission& submission) {
   if (submission.dry_run) {
     if (!job.runs.empty()) fmt::print("{}", slurm_runs_script(job));
     if (submission.report) fmt::print("\n{}", slurm_report_script(job));
+    return 0;
+  }
+  if (job.runs.empty() && !submission.report) {
+    fmt::print("nothing to submit: finished already\n");
     return 0;
   }
   require_slurm();

@@ -217,6 +217,39 @@ t_end_s = 0.01
   EXPECT_THAT(sluice(command).out, AllOf(HasSubstr("2 runs, 1 to compute"), HasSubstr("kept         kleefsman-wcsph")));
 }
 
+/// With stand-ins for Slurm's programs; campaign_slurm_test has the real ones.
+TEST_F(CommandLine, OneRunOfACampaignIsSubmittedUnlessTheQueueIsUnknown) {
+  std::ofstream(directory / "c.toml") << R"(name = "c"
+slurm = { threads = 3 }
+[[runs]]
+case = "kleefsman"
+solver = "mps"
+l0_m = [0.05, 0.04]
+t_end_s = 0.5
+)";
+  const auto stand_in = [&](const std::string& name, const std::string& words) {
+    std::ofstream(directory / name) << "#!/bin/sh\n" << words << "\n";
+    fs::permissions(directory / name, fs::perms::owner_all);
+  };
+  stand_in("sbatch", "echo 7");
+  stand_in("squeue", "exit 0");
+  program = fmt::format("PATH={}:$PATH {}", directory.string(), program);
+  const std::string command =
+      fmt::format("campaign {} --engine slurm --only kleefsman-mps-dummies-l0.050-t_end_s0.5 --out {}",
+                  (directory / "c.toml").string(), (directory / "runs").string());
+  const Answer first = sluice(command);
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.out, AllOf(HasSubstr("job 7: 1 runs"), Not(HasSubstr("report"))));
+  EXPECT_FALSE(fs::exists(directory / "runs" / "kleefsman-mps-dummies-l0.050-t_end_s0.5")) << "not computed here";
+  EXPECT_THAT(contents(directory / "runs" / "slurm" / "runs.sh"), HasSubstr("--threads 3"));
+  stand_in("squeue", "echo cannot reach the controller >&2; exit 1");
+  const Answer second = sluice(command);
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_THAT(second.err, AllOf(HasSubstr("as jobs 7: cannot reach the controller"), HasSubstr("try again")));
+  stand_in("squeue", "echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1");
+  EXPECT_EQ(sluice(command).exit_code, 0) << "forgotten since";
+}
+
 TEST_F(CommandLine, AnInterruptedCampaignGoesOnByTheSameCommand) {
   std::ofstream(directory / "c.toml") << R"(name = "c"
 [[runs]]

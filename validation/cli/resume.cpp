@@ -14,6 +14,7 @@ namespace {
 
 struct ResumeArguments {
   std::string directory;
+  std::string case_name;
   ResumeOptions options;
 };
 
@@ -24,6 +25,7 @@ const char* const resume_footer =
     "  sluice resume runs/kleefsman-wcsph-extrapolated-l0.020-alpha0.01";
 
 int resume(ResumeArguments& arguments) {
+  if (!arguments.case_name.empty()) arguments.options.the_case = load_case(arguments.case_name);
   arguments.options.progress = stderr;
   arguments.options.terminal = isatty(STDERR_FILENO) == 1;
   const RunOutcome outcome = resume_run(arguments.directory, arguments.options);
@@ -39,6 +41,8 @@ void add_resume(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("resume", "Go on with a run that was interrupted or killed");
   auto arguments = std::make_shared<ResumeArguments>();
   command->add_option("DIR", arguments->directory, "Run directory with a checkpoint")->required();
+  command->add_option("--case", arguments->case_name,
+                      "Case, where its file has moved since (default: the file that the run began with)");
   command->add_option("--threads", arguments->options.threads, "Threads (default: as many as before)")
       ->check(CLI::Range(1, 1024));
   command

@@ -157,10 +157,8 @@ Computed compute(const Case& c, const ValidateArguments& arguments, const Tier& 
                                fmt::format("validate-{}-{}-{}-{}", tier.name, c.name, request.solver, request.walls);
     try {
       const RunOutcome outcome = run_once(c, arguments, request, directory);
-      if (outcome.status == "interrupted") {
-        computed.interrupted = outcome.exit_code;
-        return computed;
-      }
+      computed.interrupted = outcome.stop_code();
+      if (computed.interrupted != 0) return computed;
       computed.any_failed = computed.any_failed || outcome.exit_code != 0;
       if (fs::exists(directory / "probes.csv"))
         computed.directories.push_back(directory);  // else it failed at its start

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 #include <tuple>
@@ -12,7 +13,9 @@
 #include "reports/run_problems.h"
 #include "reports/text.h"
 #include "validation/curve.h"
+#include "validation/file_hash.h"
 #include "validation/printable.h"
+#include "validation/solver_factory.h"
 
 namespace sluice {
 
@@ -92,7 +95,9 @@ std::vector<RunRecord> read_runs(const std::vector<std::filesystem::path>& run_d
   if (run_directories.empty())
     throw std::runtime_error("report: no run directory given (remedy: sluice report DIR...)");
   std::vector<RunRecord> records;
-  for (const auto& directory : run_directories) records.push_back(read_run(directory));
+  std::set<std::filesystem::path> read;  // patterns of a shell overlap; a run counts once
+  for (const auto& directory : run_directories)
+    if (read.insert(std::filesystem::weakly_canonical(directory)).second) records.push_back(read_run(directory));
   for (const RunRecord& record : records)
     if (record.case_name != records.front().case_name)
       throw std::runtime_error(fmt::format(
@@ -202,6 +207,7 @@ ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
     name_run(run, data.runs.size(), data.the_case);
     for (const CaseSensor& sensor : data.the_case.sensors)
       read_sensor(run, data.the_case, sensor, data.measured_series(sensor.name));
+    run.series_hash = file_hash(run.record.path / "probes.csv");
     run.acceptance = check_acceptance(data.the_case, run.record, data.measured);
     run.problems = run_problems(run, data);
     data.runs.push_back(std::move(run));
@@ -215,11 +221,14 @@ std::map<std::string, double> changed_parameters(const RunRecord& run, const Cas
   std::map<std::string, double> defaults = solver->parameters;
   if (const WallOption* walls = find_walls(*solver, run.walls); walls != nullptr)
     for (const auto& [name, value] : walls->parameters) defaults[name] = value;
+  // What the case leaves to the solver, such as a speed of sound that follows from the water's depth.
+  if (has_solver(run.solver)) defaults = complete_parameters(c, run.solver, defaults);
   defaults.erase("alpha");
   for (const Placement& placement : c.placements) defaults[placement.name] = placement.drawn_m;
   std::map<std::string, double> changed;
   for (const auto& [name, value] : defaults)
-    if (const auto used = run.number("parameters." + name); used && *used != value) changed[name] = *used;
+    if (const auto used = run.number("parameters." + name); used && std::abs(*used - value) > 1e-9 * std::abs(value))
+      changed[name] = *used;
   return changed;
 }
 

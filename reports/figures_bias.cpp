@@ -20,7 +20,6 @@ PlotPanel bias_panel(const BiasQuantity& quantity) {
   std::optional<double> most;
   int style = 0;
   for (const BiasMethod& method : quantity.methods) {
-    if (style >= plot_style_count()) break;
     PlotCurve curve;
     curve.label = method.name;
     curve.style = style++;

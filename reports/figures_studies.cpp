@@ -32,7 +32,7 @@ PlotPanel resolution_panel(const ReportData& data, const ResolutionSeries& serie
   int style = 0;
   for (const ResolutionQuantity& quantity : resolution_quantities(data, series)) {
     const bool percent = quantity.name.ends_with("[%]");
-    if (quantity.shows_value != values || (!values && !percent) || style >= plot_style_count()) continue;
+    if (quantity.shows_value != values || (!values && !percent)) continue;
     PlotCurve curve;
     curve.label = values ? quantity.name : quantity.name.substr(0, quantity.name.size() - 4);
     curve.style = style++;
@@ -93,48 +93,61 @@ void merge_labels(PlotPanel& panel, double largest_y) {
     }
 }
 
-}  // namespace
-
-std::vector<Picture> cost_figures(const FigureMaker& maker) {
-  std::vector<Picture> pictures;
-  if (!maker.enabled || maker.data.runs.size() < 2) return pictures;
+/// A point a run; runs that lack one of the two are named in left_out.
+struct CostPoints {
   PlotPanel panel;
-  panel.x_label = "processor time of the run [min]";
-  panel.y_label = "mean deviation of impulses [%]";
-  panel.log_x = true;
-  panel.y_range = {0.0, std::nullopt};
-  int style = 0;
   std::size_t points = 0;
-  for (const RunGroup& group : run_groups(maker.data, maker.data.runs.size())) {
+  double largest = 0;
+  std::string left_out;
+};
+
+CostPoints cost_points(const ReportData& data) {
+  CostPoints out;
+  out.panel.x_label = "processor time of the run [min]";
+  out.panel.y_label = "mean deviation of impulses [%]";
+  out.panel.log_x = true;
+  out.panel.y_range = {0.0, std::nullopt};
+  int style = 0;
+  for (const RunGroup& group : run_groups(data, data.runs.size())) {
     PlotCurve curve;
     curve.label = group.title;
     curve.style = style++;
     curve.points_only = true;
     for (const AnalysedRun* run : group.runs) {
-      const auto error = mean_impulse_error(maker.data, *run);
+      const auto error = mean_impulse_error(data, *run);
       const auto seconds = processor_time_s(*run);
-      if (!error || !seconds || *seconds <= 0) continue;
+      if (!error || !seconds || *seconds <= 0) {
+        out.left_out += (out.left_out.empty() ? "" : ", ") + run->key;
+        continue;
+      }
       curve.x.push_back(*seconds / 60);
       curve.y.push_back(100 * *error);
       curve.point_labels.push_back(run->key);
+      out.largest = std::max(out.largest, curve.y.back());
     }
-    points += curve.x.size();
-    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
+    out.points += curve.x.size();
+    if (!curve.x.empty()) out.panel.curves.push_back(std::move(curve));
   }
-  if (points < 2) return pictures;
-  double largest = 0;
-  for (const PlotCurve& curve : panel.curves)
-    largest = std::max(largest, *std::max_element(curve.y.begin(), curve.y.end()));
-  merge_labels(panel, largest);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Picture> cost_figures(const FigureMaker& maker) {
+  if (!maker.enabled) return {};
+  CostPoints cost = cost_points(maker.data);
+  if (cost.points < 2) return {};
+  merge_labels(cost.panel, cost.largest);
   PlotFigure figure;
   figure.name = "error_and_cost";
   figure.source = "primary readings";
-  figure.panels = {panel};
-  pictures.push_back(draw_picture(maker, figure,
-                                  "Error against cost: down and to the left is better. Processor times, summed over "
-                                  "threads, hold for the machine named under Provenance.",
-                                  "Mean deviation of impulses against processor time, one point a run"));
-  return pictures;
+  figure.panels = {cost.panel};
+  std::string caption =
+      "Error against cost: down and to the left is better. Processor times, summed over threads, hold for the machines "
+      "named under Provenance.";
+  if (!cost.left_out.empty())
+    caption += fmt::format(" Not drawn, for want of a processor time or of an error of impulses: {}.", cost.left_out);
+  return {draw_picture(maker, figure, caption, "Mean deviation of impulses against processor time, one point a run")};
 }
 
 }  // namespace sluice

@@ -29,9 +29,13 @@ constexpr std::array<Look, 6> looks = {{{"#0072B2", "solid", 7},
                                         {"#CC79A7", "(14,4,3,4)", 13},
                                         {"#E69F00", "(8,3)", 11},
                                         {"#56B4E9", "(14,4,3,4,3,4)", 4}}};
+constexpr std::array<int, looks.size()> more_markers{6, 4, 8, 12, 10, 2};
 
 std::string line_style(const PlotCurve& curve) {
-  const Look& look = looks[static_cast<std::size_t>(curve.style) % looks.size()];
+  Look look = looks[static_cast<std::size_t>(curve.style) % looks.size()];
+  // A seventh curve has the first one's colour and a marker of its own.
+  if (static_cast<std::size_t>(curve.style) / looks.size() % 2 == 1)
+    look.marker = more_markers[static_cast<std::size_t>(curve.style) % looks.size()];
   const std::string markers = curve.every_point ? "" : " pointnumber 9";
   switch (curve.look) {
     case CurveLook::experiment:
@@ -230,10 +234,6 @@ Legend legend_of(const PlotFigure& figure) {
 }
 
 }  // namespace
-
-int plot_style_count() {
-  return static_cast<int>(looks.size());
-}
 
 std::filesystem::path draw(const PlotFigure& figure, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);

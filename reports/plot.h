@@ -62,9 +62,6 @@ struct PlotFigure {
   std::string source;         ///< a comment in the script: which runs, which commit
 };
 
-/// Number of distinguishable styles; curves of one panel should not exceed it.
-int plot_style_count();
-
 /// Writes the figure's files into `folder` (made when missing) and runs gnuplot. Returns the picture's path.
 /// A point that is not finite is left out, and interrupts its curve. Throws as run_gnuplot().
 std::filesystem::path draw(const PlotFigure& figure, const std::filesystem::path& folder);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "reports/document.h"
@@ -62,6 +63,30 @@ TEST(Draw, MakesAPictureFromAScriptThatNamesItsData) {
   EXPECT_NE(svg.find("a &amp; b_c"), std::string::npos) << "labels are not read as markup";
   EXPECT_NE(svg.find("no data"), std::string::npos);
   EXPECT_EQ(read(out / "line.dat").find("nan"), std::string::npos);
+}
+
+TEST(Draw, MoreCurvesThanColoursStayApart) {
+  PlotPanel panel;
+  for (int style = 0; style < 12; ++style) {
+    PlotCurve curve;
+    curve.label = "curve " + std::to_string(style);
+    curve.style = style;
+    curve.points_only = true;
+    curve.x = {1, 2};
+    curve.y = {1.0 * style, 2.0 * style};
+    panel.curves.push_back(curve);
+  }
+  PlotFigure figure;
+  figure.name = "many";
+  figure.panels = {panel};
+  const auto out = folder("many");
+  draw(figure, out);
+  std::istringstream script(read(out / "many.gp"));
+  std::set<std::string> looks;
+  for (std::string line; std::getline(script, line);)
+    if (const auto at = line.find("points pt"); at != std::string::npos)
+      looks.insert(line.substr(at, line.find('\'', line.find('\'', at) + 1) - at));
+  EXPECT_EQ(looks.size(), 12u);
 }
 
 /// Names of runs come from other people's files.

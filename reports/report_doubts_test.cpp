@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -70,6 +71,81 @@ TEST(Doubts, ARunWithAGapSaysWhereAndHasNoImpulse) {
   const ReportData data = analyse({run});
   EXPECT_TRUE(any_has(data.runs[0].problems, "has no rows between 0.39")) << data.runs[0].problems.front();
   EXPECT_FALSE(data.runs[0].primary("P1")->comparison.impulse.simulated);
+}
+
+/// Rows of probes.csv that a test of their time keeps.
+template <class Keeps>
+void keep_rows(const fs::path& run, Keeps keeps) {
+  std::istringstream rows(test_files::read(run / "probes.csv"));
+  std::string line;
+  std::getline(rows, line);
+  std::string kept = line + '\n';
+  while (std::getline(rows, line))
+    if (keeps(std::stod(line))) kept += line + '\n';
+  std::ofstream(run / "probes.csv") << kept;
+}
+
+/// Where the peak was, and nobody would see that it is gone.
+TEST(Doubts, RowsThatMissAnImpactAreTold) {
+  const fs::path run = fresh("doubts_short_gap");
+  synthetic::write_external_run(run, 1);
+  EXPECT_FALSE(any_has(analyse({run}).runs[0].problems, "has no row")) << "nothing is missing yet";
+  keep_rows(run, [](double t_s) { return t_s < 0.42 || t_s > 0.47; });
+  const auto problems = analyse({run}).runs[0].problems;
+  EXPECT_TRUE(any_has(problems, "has no row for 5")) << problems.size();
+  EXPECT_TRUE(any_has(problems, "ms from 0.41"));
+}
+
+TEST(Doubts, RowsThatAreFarApartAreTold) {
+  const fs::path run = fresh("doubts_coarse");
+  synthetic::write_external_run(run, 1);
+  double last_s = -1;
+  keep_rows(run, [&](double t_s) {
+    if (t_s < last_s + 0.0999) return false;
+    last_s = t_s;
+    return true;
+  });
+  EXPECT_TRUE(any_has(analyse({run}).runs[0].problems, "has a row every 100 ms only"));
+}
+
+TEST(Doubts, ARunCountsOnce) {
+  const fs::path run = fresh("doubts_once");
+  synthetic::write_external_run(run, 1);
+  EXPECT_EQ(analyse({run, run / ".", run}).runs.size(), 1u) << "given twice";
+  const fs::path copy = fresh("doubts_once_more");
+  fs::copy(run, copy, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  const ReportData data = analyse({run, copy});
+  ASSERT_EQ(data.runs.size(), 2u);
+  EXPECT_FALSE(any_has(data.runs[0].problems, "byte for byte"));
+  EXPECT_TRUE(any_has(data.runs[1].problems, "its series are those of R1, byte for byte"));
+}
+
+TEST(Doubts, SeriesOfOtherCodesHaveTheirHashAndSources) {
+  const fs::path run = fresh("doubts_sources");
+  synthetic::write_external_run(run, 1);
+  nlohmann::json manifest = nlohmann::json::parse(test_files::read(run / "run.json"));
+  manifest["imported_from"] = {{{"file", "gauges.csv"}, {"hash", "fnv1a64:0123"}}};
+  std::ofstream(run / "run.json") << manifest;
+  const ReportData data = analyse({run});
+  EXPECT_EQ(test_files::cell(provenance_table(data), data.runs[0].label, "series").text,
+            data.runs[0].series_hash + " (from gauges.csv fnv1a64:0123)");
+  EXPECT_EQ(data.runs[0].series_hash.substr(0, 8), "fnv1a64:");
+}
+
+/// The case leaves the speed of sound to the solver: one that was given makes another method.
+TEST(Doubts, AParameterThatTheCaseDoesNotListIsShownToo) {
+  const fs::path usual = fresh("doubts_usual");
+  const fs::path slow = fresh("doubts_slow");
+  for (const fs::path& run : {usual, slow}) {
+    synthetic::write_run(run, {});
+    nlohmann::json manifest = nlohmann::json::parse(test_files::read(run / "run.json"));
+    manifest["parameters"]["speed_of_sound_m_s"] = run == slow ? 20.0 : 20 * std::sqrt(9.81 * 0.55);
+    std::ofstream(run / "run.json") << manifest;
+  }
+  const ReportData data = analyse({usual, slow});
+  for (const AnalysedRun& run : data.runs)
+    EXPECT_EQ(run.label.find("speed_of_sound_m_s = 20") != std::string::npos, run.record.path == slow) << run.label;
+  for (const BiasQuantity& quantity : bias_quantities(data)) EXPECT_EQ(quantity.methods.size(), 2u) << quantity.name;
 }
 
 std::vector<fs::path> three_distances(const std::string& name) {

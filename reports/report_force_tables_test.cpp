@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "reports/report.h"
 #include "reports/studies.h"
@@ -156,6 +157,50 @@ TEST(ForceTables, StatementsOnTheForceNeedAMeasurementOrNot) {
   EXPECT_EQ(cell(table, "Oscillations", "verdict").text, "agrees") << cell(table, "Oscillations", "runs").text;
   EXPECT_EQ(cell(table, "MPS costs 2.0 times WCSPH", "paper").text, "1.2 times at l0 = 5 mm, 2.0 times at l0 = 2.5 mm");
   EXPECT_EQ(cell(table, "MPS costs 2.0 times WCSPH", "verdict").text, "does not agree") << "the same cost";
+}
+
+/// Of two runs at one alpha neither comes after the other: what their folders are called must not decide.
+TEST(ForceTables, AVerdictDoesNotHangOnTheNamesOfFolders) {
+  for (const bool swapped : {false, true}) {
+    std::vector<fs::path> runs;
+    const auto write = [&](const std::string& name, double alpha, double noise_N) {
+      runs.push_back(fresh("force_names_" + name));
+      MadeForceRun run;
+      run.case_name = "aureli";
+      run.alpha = alpha;
+      run.noise_N = noise_N;
+      synthetic::write_force_run(runs.back(), run);
+    };
+    write("a", 0.1, swapped ? 0.2 : 0.3);
+    write("b", 0.1, swapped ? 0.3 : 0.2);
+    write("c", 0.01, 0.5);
+    const Table table = conclusions_table(analyse(runs));
+    EXPECT_EQ(cell(table, "Oscillations", "verdict").text, "agrees") << cell(table, "Oscillations", "runs").text;
+  }
+}
+
+void put_in_manifest(const fs::path& run, const nlohmann::json& entries) {
+  nlohmann::json manifest = nlohmann::json::parse(test_files::read(run / "run.json"));
+  manifest.update(entries);
+  std::ofstream(run / "run.json") << manifest;
+}
+
+TEST(ForceTables, CostsAreComparedOnOneMachineAndWithThePapersAtThatDistance) {
+  const fs::path wcsph = fresh("force_cost_wcsph");
+  const fs::path mps = fresh("force_cost_mps");
+  MadeForceRun run;
+  run.case_name = "aureli";
+  run.l0_m = 0.005;
+  synthetic::write_force_run(wcsph, run);
+  run.solver = "mps";
+  run.walls = "dummies";
+  synthetic::write_force_run(mps, run);
+  put_in_manifest(wcsph, {{"cpu_time_s", 1000.0}, {"machine", "one"}});
+  put_in_manifest(mps, {{"cpu_time_s", 1250.0}, {"machine", "one"}});
+  const char* const statement = "MPS costs 2.0 times WCSPH";
+  EXPECT_EQ(cell(conclusions_table(analyse({wcsph, mps})), statement, "verdict").text, "agrees") << "1.25 at 5 mm";
+  put_in_manifest(mps, {{"machine", "another"}});
+  EXPECT_EQ(cell(conclusions_table(analyse({wcsph, mps})), statement, "verdict").text, "missing");
 }
 
 TEST(ForceTables, LengthsThatSourcesLeaveOpenHaveTheirTableAndAreNoResolutionOrAlpha) {

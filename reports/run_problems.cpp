@@ -92,6 +92,46 @@ void note_doubtful_units(Problems& problems, const AnalysedRun& run, const Repor
   }
 }
 
+/// Peaks and running means of 10 ms need rows closer than that.
+void note_sampling(Problems& problems, const RunRecord& record, Window window) {
+  constexpr double coarse_s = 0.0105;
+  constexpr double times_its_neighbours = 20;
+  const std::vector<double>& times = record.probes.times_s();
+  if (first_gap({times, times}, window)) return;  // told already
+  std::vector<double> begins;
+  std::vector<double> intervals;
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    if (times[k] <= window.begin_s || times[k - 1] >= window.end_s) continue;
+    begins.push_back(times[k - 1]);
+    intervals.push_back(times[k] - times[k - 1]);
+  }
+  if (intervals.size() < 2) return;
+  std::vector<double> sorted = intervals;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  const double median_s = sorted[sorted.size() / 2];
+  if (median_s > coarse_s) {
+    problems.push_back(
+        fmt::format("has a row every {} ms only: of peaks, running means of 10 ms, noise and arrivals it "
+                    "says little",
+                    significant(1000 * median_s, 2)));
+    return;
+  }
+  const auto longest = std::max_element(intervals.begin(), intervals.end());
+  const auto k = static_cast<std::size_t>(longest - intervals.begin());
+  const double beside_s = std::max(k > 0 ? intervals[k - 1] : 0, k + 1 < intervals.size() ? intervals[k + 1] : 0);
+  if (*longest > std::max(coarse_s, times_its_neighbours * beside_s))
+    problems.push_back(fmt::format("has no row for {} ms from {} s on: a peak there is not seen",
+                                   significant(1000 * *longest, 2), significant(begins[k], 4)));
+}
+
+/// One run under two names counts twice.
+void note_twin(Problems& problems, const AnalysedRun& run, const ReportData& data) {
+  const auto twin = std::find_if(data.runs.begin(), data.runs.end(),
+                                 [&](const AnalysedRun& other) { return other.series_hash == run.series_hash; });
+  if (twin != data.runs.end() && !run.record.probes.times_s().empty())
+    problems.push_back(fmt::format("its series are those of {}, byte for byte: one run under two names?", twin->key));
+}
+
 void note_lost(Problems& problems, const RunRecord& record) {
   if (record.number("lost.through_walls").value_or(0) > 0)
     problems.push_back(fmt::format("fluid particles that went through a wall, an error of the method: {}",
@@ -105,6 +145,8 @@ std::vector<std::string> run_problems(const AnalysedRun& run, const ReportData& 
   note_ending(problems, run.record);
   note_other_case(problems, run.record, data.the_case);
   note_coverage(problems, run.record, data);
+  note_sampling(problems, run.record, data.window);
+  note_twin(problems, run, data);
   note_unread_columns(problems, run, data.the_case);
   note_nothing_primary(problems, run, data.the_case);
   note_doubtful_units(problems, run, data);

@@ -175,6 +175,10 @@ ReportSection conservation_section(const FigureMaker& maker) {
 ReportSection cost_section(const FigureMaker& maker) {
   ReportSection section{"cost", "Error and cost", {}};
   append(section, cost_figures(maker));
+  if (maker.enabled && section.blocks.empty())
+    section.blocks.push_back(
+        BulletList{{"No plot of error against cost: it takes two runs with a processor time and an "
+                    "error of measured impulses of pressure."}});
   Table ratio = cost_ratio_table(maker.data);
   if (!ratio.rows.empty()) section.blocks.push_back(std::move(ratio));
   section.blocks.push_back(phases_table(maker.data));

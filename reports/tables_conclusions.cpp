@@ -1,7 +1,10 @@
 // The paper's statements, evaluated on the runs at hand.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +28,14 @@ std::optional<double> per_simulated_second(const AnalysedRun& run, std::optional
 struct PrintedRatios {
   std::string words;
   double at_finest = 0;
+  std::map<double, double> at;  ///< by particle distance [m]
+
+  /// The one that runs at a particle distance are held against: where the paper prints none, that of its finest.
+  double near(double l0_m) const {
+    const auto found =
+        std::find_if(at.begin(), at.end(), [&](const auto& a) { return std::abs(a.first - l0_m) < 1e-9; });
+    return found != at.end() ? found->second : at_finest;
+  }
 };
 
 template <class Ratio>
@@ -37,6 +48,7 @@ PrintedRatios printed_ratios(const ReportData& data, Ratio ratio) {
     for (const PublishedRun& wcsph : runs) {
       if (mps.solver != "mps" || wcsph.solver != "wcsph" || std::abs(mps.l0_m - wcsph.l0_m) > 1e-9) continue;
       const double value = ratio(mps, wcsph);
+      out.at[mps.l0_m] = value;
       out.words += fmt::format("{}{} times at l0 = {:g} mm", count++ > 0 ? ", " : "", fixed(value, 1), 1000 * mps.l0_m);
       if (mps.l0_m >= finest_m) continue;
       finest_m = mps.l0_m;
@@ -46,18 +58,43 @@ PrintedRatios printed_ratios(const ReportData& data, Ratio ratio) {
   return out;
 }
 
+/// Runs of one machine: the cheapest of each method there, where both ran; of several machines the one with the
+/// cheapest run of MPS. Nothing where no machine has both.
+struct CostPair {
+  const AnalysedRun* mps = nullptr;
+  const AnalysedRun* wcsph = nullptr;
+  double ratio = 0;
+};
+
+std::optional<double> cost_of(const AnalysedRun& run) {
+  return per_simulated_second(run, processor_time_s(run));
+}
+
+CostPair cheapest_of_one_machine(const BothMethods& both) {
+  CostPair best;
+  double least_cost = HUGE_VAL;
+  for (const AnalysedRun* mps : both.mps) {
+    const auto mps_cost = cost_of(*mps);
+    if (!mps_cost || *mps_cost >= least_cost) continue;
+    std::vector<const AnalysedRun*> beside;
+    for (const AnalysedRun* run : both.wcsph)
+      if (run->record.text("machine") == mps->record.text("machine")) beside.push_back(run);
+    const auto [wcsph_cost, wcsph] = least(beside, cost_of);
+    if (!wcsph_cost) continue;
+    least_cost = *mps_cost;
+    best = {mps, wcsph, *mps_cost / *wcsph_cost};
+  }
+  return best;
+}
+
 void add_cost(Table& table, const ReportData& data, const BothMethods& both) {
   const PrintedRatios printed =
       printed_ratios(data, [](const auto& mps, const auto& wcsph) { return mps.cpu_time_s / wcsph.cpu_time_s; });
   if (printed.words.empty()) return;
   Evidence ours;
-  const auto cost_of = [](const AnalysedRun& run) { return per_simulated_second(run, processor_time_s(run)); };
-  const auto [mps_cost, costly] = least(both.mps, cost_of);
-  const auto [wcsph_cost, cheap] = least(both.wcsph, cost_of);
-  if (mps_cost && wcsph_cost) {
-    const double ratio = *mps_cost / *wcsph_cost;
-    ours.words = fmt::format("{} times, {} to {}", fixed(ratio, 2), costly->key, cheap->key);
-    ours.agrees = std::abs(ratio / printed.at_finest - 1) < 0.10;
+  if (const CostPair pair = cheapest_of_one_machine(both); pair.mps != nullptr) {
+    ours.words = fmt::format("{} times, {} to {}", fixed(pair.ratio, 2), pair.mps->key, pair.wcsph->key);
+    ours.agrees = std::abs(pair.ratio / printed.near(both.l0_m) - 1) < 0.10;
   }
   conclusions::add(table, fmt::format("MPS costs {} times WCSPH", fixed(printed.at_finest, 1)), printed.words, ours);
 }
@@ -73,7 +110,7 @@ void add_steps(Table& table, const ReportData& data, const BothMethods& both) {
   if (mps_steps && wcsph_steps) {
     const double ratio = *wcsph_steps / *mps_steps;
     ours.words = fmt::format("{} times, {} to {}", fixed(ratio, 1), many->key, few->key);
-    ours.agrees = ratio > 0.75 * printed.at_finest;
+    ours.agrees = ratio > 0.75 * printed.near(both.l0_m);
   }
   conclusions::add(table, "WCSPH takes many more steps than MPS", printed.words, ours);
 }

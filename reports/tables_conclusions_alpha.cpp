@@ -102,12 +102,27 @@ Evidence judge_best_force(const ReportData& data, const WallsScope& scope, const
   return ours;
 }
 
+/// One point an alpha: of several runs at one, the mean.
+std::vector<std::pair<double, double>> means(const std::vector<std::pair<double, double>>& points) {
+  std::vector<std::pair<double, double>> out;
+  for (std::size_t k = 0; k < points.size();) {
+    double sum = 0;
+    std::size_t n = 0;
+    for (; k + n < points.size() && is_alpha(points[k + n].first, points[k].first); ++n) sum += points[k + n].second;
+    out.emplace_back(points[k].first, sum / static_cast<double>(n));
+    k += n;
+  }
+  return out;
+}
+
 Evidence judge_oscillations(const ReportData& data, const WallsScope& scope, const std::string& sensor) {
   const AlphaTrend trend = alpha_trend(data, scope, sensor, "N", [](const Comparison& c) { return c.noise.simulated; });
   Evidence ours{trend.words.empty() ? "" : "noise " + trend.words, true};
-  for (const auto& points : trend.series)
+  for (const auto& series : trend.series) {
+    const auto points = means(series);
     for (std::size_t k = 1; k < points.size(); ++k)
       ours.agrees = ours.agrees && points[k].second < points[k - 1].second;
+  }
   return ours;
 }
 

@@ -230,6 +230,20 @@ Table phases_table(const ReportData& data) {
   return table;
 }
 
+/// The hash of a run's series and, where they were imported, the files that they are from with theirs.
+std::string series_source(const AnalysedRun& run) {
+  std::string text = run.series_hash;
+  const auto found = run.record.manifest.find("imported_from");
+  if (found == run.record.manifest.end() || !found->is_array()) return text;
+  std::string files;
+  for (const nlohmann::json& source : *found)
+    if (source.is_object() && source.value("file", nlohmann::json()).is_string() &&
+        source.value("hash", nlohmann::json()).is_string())
+      files += fmt::format("{}{} {}", files.empty() ? "" : ", ", source["file"].get<std::string>(),
+                           source["hash"].get<std::string>());
+  return files.empty() ? text : fmt::format("{} (from {})", text, files);
+}
+
 Table provenance_table(const ReportData& data) {
   Table table;
   table.name = "provenance";
@@ -247,6 +261,7 @@ Table provenance_table(const ReportData& data) {
                    {"CPU time", "cpu_time_s"},
                    {"Case file", "case_hash", false},
                    {"Measured data", "data_hash", false},
+                   {"Series", "series", false},
                    {"Lost over the top", "lost_over_top"},
                    {"Lost through walls", "lost_through_walls"}};
   for (const AnalysedRun& run : data.runs) {
@@ -257,7 +272,7 @@ Table provenance_table(const ReportData& data) {
                text_cell(r.text("commit")), text_cell(r.text("compiler")), text_cell(r.text("flags")),
                text_cell(r.text(r.text("machine") ? "machine" : "cpu")), whole(r.number("threads")),
                time_cell(r.number("wall_time_s")), time_cell(r.number("cpu_time_s")), text_cell(r.text("case_hash")),
-               text_cell(r.text("data_hash")), whole(r.number("lost.over_top")), through});
+               text_cell(r.text("data_hash")), word(series_source(run)), whole(r.number("lost.over_top")), through});
   }
   std::string measured;
   for (const MeasuredFile& file : data.measured.files())

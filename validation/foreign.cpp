@@ -235,6 +235,9 @@ ForeignMap parse_foreign_map(std::string_view text, const fs::path& map) {
   foreign.map = map;
   foreign.solver = reader.text("solver");
   foreign.l0_m = reader.positive_number("l0_m");
+  if (reader.has("walls")) foreign.walls = reader.text("walls");
+  for (const char* name : foreign_numbers)
+    if (reader.has(name)) foreign.numbers[name] = reader.positive_number(name);
   const Case c = load_case_for(reader, reader.text("case"));
   foreign.case_name = c.name;
   foreign.case_file = outside_case_file(c);
@@ -286,6 +289,8 @@ void import_foreign(const ForeignMap& map, const fs::path& directory) {
     sources.push_back({{"file", f.file.filename().string()}, {"hash", file_hash(f.file)}});
   nlohmann::json manifest{{"case", map.case_name},    {"solver", map.solver}, {"l0_m", map.l0_m},
                           {"imported_from", sources}, {"warnings", warnings}, {"map_hash", file_hash(map.map)}};
+  if (!map.walls.empty()) manifest["walls"] = map.walls;
+  for (const auto& [name, value] : map.numbers) manifest[name] = value;
   if (!map.case_file.empty()) manifest["case_file"] = map.case_file;
   write_manifest(directory, manifest);
 }

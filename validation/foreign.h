@@ -3,6 +3,8 @@
 //   case = "kleefsman"
 //   solver = "interFoam"                  # as it shall stand in tables
 //   l0_m = 0.02                           # particle distance or mesh width
+//   alpha = 0.01                          # where it has one; likewise walls = "..." and, of its run, wall_time_s,
+//                                         # cpu_time_s, threads and steps: studies of alpha and of cost use them
 //   [[files]]                             # one or several
 //   file = "gauges.csv"                   # relative to the map
 //   separator = ";"                       # "," (default), ";", "tab" or "blank"
@@ -17,8 +19,10 @@
 // has a gap there is refused.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -46,12 +50,17 @@ struct ForeignFile {
   std::vector<ForeignColumn> columns;
 };
 
+/// What a map may tell of a run beside its series: the same names as in run.json.
+inline constexpr std::array<const char*, 5> foreign_numbers{"alpha", "wall_time_s", "cpu_time_s", "threads", "steps"};
+
 struct ForeignMap {
   std::filesystem::path map;
   std::string case_name;
   std::string case_file;  ///< outside_case_file()
   std::string solver;
   double l0_m = 0;
+  std::string walls;                      ///< empty: not told
+  std::map<std::string, double> numbers;  ///< of foreign_numbers, those that the map has
   std::vector<ForeignFile> files;
 };
 

@@ -267,6 +267,20 @@ TEST_F(ForeignTest, AnImportedRunReadsLikeAnyOther) {
   EXPECT_FALSE(run.own);
   EXPECT_THAT(run.probes.values("P1_Pa"), ElementsAre(1, 2));
   EXPECT_TRUE(run.manifest.at("imported_from").at(0).contains("hash"));
+  EXPECT_FALSE(run.alpha());
+}
+
+/// Without these a code's runs could take part in no study of alpha or of cost.
+TEST_F(ForeignTest, AlphaAndCostMayBeTold) {
+  write("a.csv", "time_s,P1_Pa,H2_m\n0,1,0\n0.1,2,0.1\n");
+  read("alpha = 0.05\nwalls = \"their own\"\ncpu_time_s = 120\nsteps = 4000\n" + std::string(plain));
+  import_foreign(load_foreign_map(directory / "m.toml"), directory / "run");
+  const RunRecord run = read_run(directory / "run");
+  EXPECT_EQ(run.alpha(), 0.05);
+  EXPECT_EQ(run.walls, "their own");
+  EXPECT_EQ(run.number("cpu_time_s"), 120);
+  EXPECT_EQ(run.number("steps"), 4000);
+  EXPECT_THAT(refusal("alpha = -1\n" + std::string(plain)), HasSubstr("m.toml:4: alpha"));
 }
 
 TEST_F(ForeignTest, RemediesAreNamedWhereNothingCanBeReadOrWritten) {

@@ -207,7 +207,9 @@ ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
     name_run(run, data.runs.size(), data.the_case);
     for (const CaseSensor& sensor : data.the_case.sensors)
       read_sensor(run, data.the_case, sensor, data.measured_series(sensor.name));
-    run.series_hash = file_hash(run.record.path / "probes.csv");
+    // A run that failed at its start has no series.
+    if (const auto series = run.record.path / "probes.csv"; std::filesystem::exists(series))
+      run.series_hash = file_hash(series);
     run.acceptance = check_acceptance(data.the_case, run.record, data.measured);
     run.problems = run_problems(run, data);
     data.runs.push_back(std::move(run));

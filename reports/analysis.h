@@ -40,7 +40,7 @@ struct AnalysedRun {
   std::string group;         ///< "WCSPH, extrapolated walls": runs that are drawn in one panel
   std::string method_label;  ///< "R1 WCSPH, α = 0.01": beside walls and l0
   std::string directory;     ///< as shown: never an absolute path
-  std::string series_hash;   ///< of probes.csv, as file_hash() gives it
+  std::string series_hash;   ///< of probes.csv, as file_hash() gives it; empty where there is none
   std::vector<SensorReading> readings;
   std::vector<AcceptanceCheck> acceptance;  ///< every row of the case, in its order
   std::vector<std::string> problems;        ///< what the reader should know before trusting this run

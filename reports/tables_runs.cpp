@@ -272,7 +272,8 @@ Table provenance_table(const ReportData& data) {
                text_cell(r.text("commit")), text_cell(r.text("compiler")), text_cell(r.text("flags")),
                text_cell(r.text(r.text("machine") ? "machine" : "cpu")), whole(r.number("threads")),
                time_cell(r.number("wall_time_s")), time_cell(r.number("cpu_time_s")), text_cell(r.text("case_hash")),
-               text_cell(r.text("data_hash")), word(series_source(run)), whole(r.number("lost.over_top")), through});
+               text_cell(r.text("data_hash")), run.series_hash.empty() ? missing() : word(series_source(run)),
+               whole(r.number("lost.over_top")), through});
   }
   std::string measured;
   for (const MeasuredFile& file : data.measured.files())

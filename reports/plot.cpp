@@ -32,10 +32,10 @@ constexpr std::array<Look, 6> looks = {{{"#0072B2", "solid", 7},
 constexpr std::array<int, looks.size()> more_markers{6, 4, 8, 12, 10, 2};
 
 std::string line_style(const PlotCurve& curve) {
-  Look look = looks[static_cast<std::size_t>(curve.style) % looks.size()];
+  const auto style = static_cast<std::size_t>(curve.style);
+  Look look = looks[style % looks.size()];
   // A seventh curve has the first one's colour and a marker of its own.
-  if (static_cast<std::size_t>(curve.style) / looks.size() % 2 == 1)
-    look.marker = more_markers[static_cast<std::size_t>(curve.style) % looks.size()];
+  if (style / looks.size() % 2 == 1) look.marker = more_markers[style % looks.size()];
   const std::string markers = curve.every_point ? "" : " pointnumber 9";
   switch (curve.look) {
     case CurveLook::experiment:

@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using synthetic::MadeForceRun;
 using test_files::fresh;
+using test_files::put_in_manifest;
 
 void replace_in(const fs::path& file, const std::string& from, const std::string& to) {
   std::string text = test_files::read(file);
@@ -58,21 +59,6 @@ TEST(Doubts, SeveralModelsOfWhichNoneIsToBeJudgedAreNamed) {
   EXPECT_TRUE(any_has(analyse({run}).runs[0].problems, "P1 has columns of 2 models, none of them"));
 }
 
-TEST(Doubts, ARunWithAGapSaysWhereAndHasNoImpulse) {
-  const fs::path run = fresh("doubts_gap");
-  synthetic::write_external_run(run, 1);
-  std::istringstream rows(test_files::read(run / "probes.csv"));
-  std::string line;
-  std::getline(rows, line);
-  std::string kept = line + '\n';
-  while (std::getline(rows, line))
-    if (const double t_s = std::stod(line); t_s < 0.4 || t_s > 0.7) kept += line + '\n';
-  std::ofstream(run / "probes.csv") << kept;
-  const ReportData data = analyse({run});
-  EXPECT_TRUE(any_has(data.runs[0].problems, "has no rows between 0.39")) << data.runs[0].problems.front();
-  EXPECT_FALSE(data.runs[0].primary("P1")->comparison.impulse.simulated);
-}
-
 /// Rows of probes.csv that a test of their time keeps.
 template <class Keeps>
 void keep_rows(const fs::path& run, Keeps keeps) {
@@ -83,6 +69,15 @@ void keep_rows(const fs::path& run, Keeps keeps) {
   while (std::getline(rows, line))
     if (keeps(std::stod(line))) kept += line + '\n';
   std::ofstream(run / "probes.csv") << kept;
+}
+
+TEST(Doubts, ARunWithAGapSaysWhereAndHasNoImpulse) {
+  const fs::path run = fresh("doubts_gap");
+  synthetic::write_external_run(run, 1);
+  keep_rows(run, [](double t_s) { return t_s < 0.4 || t_s > 0.7; });
+  const ReportData data = analyse({run});
+  EXPECT_TRUE(any_has(data.runs[0].problems, "has no rows between 0.39")) << data.runs[0].problems.front();
+  EXPECT_FALSE(data.runs[0].primary("P1")->comparison.impulse.simulated);
 }
 
 /// Where the peak was, and nobody would see that it is gone.
@@ -123,9 +118,7 @@ TEST(Doubts, ARunCountsOnce) {
 TEST(Doubts, SeriesOfOtherCodesHaveTheirHashAndSources) {
   const fs::path run = fresh("doubts_sources");
   synthetic::write_external_run(run, 1);
-  nlohmann::json manifest = nlohmann::json::parse(test_files::read(run / "run.json"));
-  manifest["imported_from"] = {{{"file", "gauges.csv"}, {"hash", "fnv1a64:0123"}}};
-  std::ofstream(run / "run.json") << manifest;
+  put_in_manifest(run, {{"imported_from", {{{"file", "gauges.csv"}, {"hash", "fnv1a64:0123"}}}}});
   const ReportData data = analyse({run});
   EXPECT_EQ(test_files::cell(provenance_table(data), data.runs[0].label, "series").text,
             data.runs[0].series_hash + " (from gauges.csv fnv1a64:0123)");
@@ -138,9 +131,8 @@ TEST(Doubts, AParameterThatTheCaseDoesNotListIsShownToo) {
   const fs::path slow = fresh("doubts_slow");
   for (const fs::path& run : {usual, slow}) {
     synthetic::write_run(run, {});
-    nlohmann::json manifest = nlohmann::json::parse(test_files::read(run / "run.json"));
-    manifest["parameters"]["speed_of_sound_m_s"] = run == slow ? 20.0 : 20 * std::sqrt(9.81 * 0.55);
-    std::ofstream(run / "run.json") << manifest;
+    const double speed_of_sound_m_s = run == slow ? 20.0 : 20 * std::sqrt(9.81 * 0.55);
+    put_in_manifest(run, {{"parameters", {{"speed_of_sound_m_s", speed_of_sound_m_s}}}});
   }
   const ReportData data = analyse({usual, slow});
   for (const AnalysedRun& run : data.runs)
@@ -162,9 +154,7 @@ std::vector<fs::path> three_distances(const std::string& name) {
 TEST(Doubts, AStudyOfRunsOfSeveralBuildsSaysSo) {
   const auto directories = three_distances("doubts_builds");
   EXPECT_TRUE(mixed_builds(analyse(directories)).empty());
-  nlohmann::json manifest = nlohmann::json::parse(test_files::read(directories[1] / "run.json"));
-  manifest["commit"] = "abcdef0123456789";
-  std::ofstream(directories[1] / "run.json") << manifest;
+  put_in_manifest(directories[1], {{"commit", "abcdef0123456789"}});
   const auto texts = mixed_builds(analyse(directories));
   ASSERT_EQ(texts.size(), 1u);
   EXPECT_TRUE(texts[0].starts_with("The study of resolution (")) << texts[0];

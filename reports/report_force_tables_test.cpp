@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "reports/report.h"
 #include "reports/studies.h"
@@ -21,6 +20,7 @@ using synthetic::MadeForceRun;
 
 using test_files::cell;
 using test_files::fresh;
+using test_files::put_in_manifest;
 
 TEST(ForceTables, KnownScaleAndShiftGiveKnownNumbersByBothRoutes) {
   const fs::path dir = fresh("force_known");
@@ -177,12 +177,6 @@ TEST(ForceTables, AVerdictDoesNotHangOnTheNamesOfFolders) {
     const Table table = conclusions_table(analyse(runs));
     EXPECT_EQ(cell(table, "Oscillations", "verdict").text, "agrees") << cell(table, "Oscillations", "runs").text;
   }
-}
-
-void put_in_manifest(const fs::path& run, const nlohmann::json& entries) {
-  nlohmann::json manifest = nlohmann::json::parse(test_files::read(run / "run.json"));
-  manifest.update(entries);
-  std::ofstream(run / "run.json") << manifest;
 }
 
 TEST(ForceTables, CostsAreComparedOnOneMachineAndWithThePapersAtThatDistance) {

@@ -80,13 +80,9 @@ TEST_F(BothMethods, NeedEqualParticleDistanceAndEndAndTheSensor) {
   EXPECT_TRUE(panels(data).empty()) << "MPS without a reading";
   EXPECT_EQ(cut_.words, "");
   const fs::path mps = runs_.back();
-  auto manifest = nlohmann::json::parse(read(mps / "run.json"));
-  manifest["t_end_s"] = 3.0;
-  std::ofstream(mps / "run.json") << manifest;
+  test_files::put_in_manifest(mps, {{"t_end_s", 3.0}});
   EXPECT_TRUE(panels(analyse(runs_)).empty()) << "another end";
-  manifest["t_end_s"] = 6.0;
-  manifest["l0_m"] = 0.015;
-  std::ofstream(mps / "run.json") << manifest;
+  test_files::put_in_manifest(mps, {{"t_end_s", 6.0}, {"l0_m", 0.015}});
   EXPECT_TRUE(panels(analyse(runs_)).empty()) << "another particle distance";
   runs_.pop_back();
   EXPECT_TRUE(panels(analyse(runs_)).empty()) << "WCSPH alone";

@@ -95,33 +95,22 @@ void note_doubtful_units(Problems& problems, const AnalysedRun& run, const Repor
 /// Peaks and running means of 10 ms need rows closer than that.
 void note_sampling(Problems& problems, const RunRecord& record, Window window) {
   constexpr double coarse_s = 0.0105;
-  constexpr double times_its_neighbours = 20;
   const std::vector<double>& times = record.probes.times_s();
-  if (first_gap({times, times}, window)) return;  // told already
-  std::vector<double> begins;
+  const Curve rows{times, times};
+  if (first_gap(rows, window)) return;  // told already
   std::vector<double> intervals;
-  for (std::size_t k = 1; k < times.size(); ++k) {
-    if (times[k] <= window.begin_s || times[k - 1] >= window.end_s) continue;
-    begins.push_back(times[k - 1]);
-    intervals.push_back(times[k] - times[k - 1]);
-  }
+  for (std::size_t k = 1; k < times.size(); ++k)
+    if (times[k] > window.begin_s && times[k - 1] < window.end_s) intervals.push_back(times[k] - times[k - 1]);
   if (intervals.size() < 2) return;
-  std::vector<double> sorted = intervals;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double median_s = sorted[sorted.size() / 2];
-  if (median_s > coarse_s) {
+  const auto median = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), median, intervals.end());
+  if (*median > coarse_s)
     problems.push_back(
-        fmt::format("has a row every {} ms only: of peaks, running means of 10 ms, noise and arrivals it "
-                    "says little",
-                    significant(1000 * median_s, 2)));
-    return;
-  }
-  const auto longest = std::max_element(intervals.begin(), intervals.end());
-  const auto k = static_cast<std::size_t>(longest - intervals.begin());
-  const double beside_s = std::max(k > 0 ? intervals[k - 1] : 0, k + 1 < intervals.size() ? intervals[k + 1] : 0);
-  if (*longest > std::max(coarse_s, times_its_neighbours * beside_s))
+        fmt::format("has a row every {} ms only: of peaks, running means of 10 ms, noise and arrivals it says little",
+                    significant(1000 * *median, 2)));
+  else if (const auto gap = first_gap(rows, window, coarse_s))
     problems.push_back(fmt::format("has no row for {} ms from {} s on: a peak there is not seen",
-                                   significant(1000 * *longest, 2), significant(begins[k], 4)));
+                                   significant(1000 * (gap->end_s - gap->begin_s), 2), significant(gap->begin_s, 4)));
 }
 
 /// One run under two names counts twice.

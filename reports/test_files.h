@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
@@ -24,6 +25,13 @@ inline std::filesystem::path fresh(const std::string& name) {
       std::filesystem::absolute(std::filesystem::path(testing::TempDir()) / ("sluice_report_" + name));
   std::filesystem::remove_all(path);
   return path;
+}
+
+/// Puts entries into a run's manifest (as a JSON merge patch: objects are merged).
+inline void put_in_manifest(const std::filesystem::path& run, const nlohmann::json& entries) {
+  nlohmann::json manifest = nlohmann::json::parse(read(run / "run.json"));
+  manifest.merge_patch(entries);
+  std::ofstream(run / "run.json") << manifest;
 }
 
 }  // namespace sluice::test_files

@@ -300,15 +300,14 @@ TEST_F(CampaignTest, OfTwoRunsTheOneOfTheSameParametersCounts) {
 TEST_F(CampaignTest, CasesOfOneNameAreRefused) {
   const std::string copy = (directory / "copy.toml").string();
   fs::copy_file(load_case("kleefsman").file, copy);
-  const std::string group = "[[runs]]\nsolver = \"mps\"\nl0_m = [{}]\ncase = \"{}\"\n";
-  EXPECT_THAT(refusal("name = \"c\"\n" + fmt::format(fmt::runtime(group), 0.05, "kleefsman") +
-                      fmt::format(fmt::runtime(group), 0.04, copy)),
-              AllOf(HasSubstr("c.toml:9"), HasSubstr("call themselves kleefsman")));
+  const auto group = [](double l0_m, const std::string& name) {
+    return fmt::format("[[runs]]\nsolver = \"mps\"\nl0_m = [{}]\ncase = \"{}\"\n", l0_m, name);
+  };
+  const std::string both = "name = \"c\"\n" + group(0.05, "kleefsman") + group(0.04, copy);
+  EXPECT_THAT(refusal(both), AllOf(HasSubstr("c.toml:9"), HasSubstr("call themselves kleefsman")));
   fs::remove(copy);
   fs::create_symlink(fs::absolute(load_case("kleefsman").file), copy);  // one case by two ways
-  const Campaign c = load("name = \"c\"\n" + fmt::format(fmt::runtime(group), 0.05, "kleefsman") +
-                          fmt::format(fmt::runtime(group), 0.04, copy));
-  EXPECT_EQ(c.cases.size(), 1U);
+  EXPECT_EQ(load(both).cases.size(), 1U);
 }
 
 TEST_F(CampaignTest, ARunWithoutTheSnapshotsAskedForIsOutdated) {

@@ -28,25 +28,32 @@ bool reaches_end(const Curve& curve, Window window) {
          window.end_s - curve.t_s.back() <= slack_s(curve.t_s[n - 1] - curve.t_s[n - 2], window);
 }
 
+/// Over anything longer a straight line would be an invention.
+double shortest_gap_s(Window window) {
+  return 0.01 * (window.end_s - window.begin_s);
+}
+
 /// Whether rows are missing between samples i - 1 and i: far longer than the intervals beside it. Codes that write few
 /// rows in calm water and many at an impact have long intervals beside long ones.
-bool is_gap(const Curve& curve, std::size_t i, Window window) {
+bool is_gap(const Curve& curve, std::size_t i, double shortest_s) {
   constexpr double times_its_neighbours = 20;
-  constexpr double share = 0.01;
   const double before_s = i >= 2 ? curve.t_s[i - 1] - curve.t_s[i - 2] : 0;
   const double after_s = i + 1 < curve.t_s.size() ? curve.t_s[i + 1] - curve.t_s[i] : 0;
   const double usual_s = std::max(before_s, after_s);
-  return usual_s > 0 && curve.t_s[i] - curve.t_s[i - 1] >
-                            std::max(times_its_neighbours * usual_s, share * (window.end_s - window.begin_s));
+  return usual_s > 0 && curve.t_s[i] - curve.t_s[i - 1] > std::max(times_its_neighbours * usual_s, shortest_s);
 }
 
 }  // namespace
 
-std::optional<Window> first_gap(const Curve& curve, Window window) {
+std::optional<Window> first_gap(const Curve& curve, Window window, double shortest_s) {
   for (auto i = std::max<std::size_t>(1, first_at_or_after(curve, window.begin_s));
        i < curve.t_s.size() && curve.t_s[i - 1] < window.end_s; ++i)
-    if (curve.t_s[i] > window.begin_s && is_gap(curve, i, window)) return Window{curve.t_s[i - 1], curve.t_s[i]};
+    if (curve.t_s[i] > window.begin_s && is_gap(curve, i, shortest_s)) return Window{curve.t_s[i - 1], curve.t_s[i]};
   return std::nullopt;
+}
+
+std::optional<Window> first_gap(const Curve& curve, Window window) {
+  return first_gap(curve, window, shortest_gap_s(window));
 }
 
 bool covers(const Curve& curve, Window window) {
@@ -147,7 +154,7 @@ std::optional<double> arrival_time(const Curve& curve, Window window, double thr
   for (auto i = first_at_or_after(curve, begin); i < n; ++i) {
     const double t1 = curve.t_s[i];
     const double v1 = curve.value[i];
-    if (i > 0 && is_gap(curve, i, window)) return std::nullopt;
+    if (i > 0 && is_gap(curve, i, shortest_gap_s(window))) return std::nullopt;
     if (v1 >= threshold) {
       const double t = t0 + (t1 - t0) * (threshold - v0) / (v1 - v0);
       return t <= window.end_s ? std::optional(t) : std::nullopt;

@@ -44,8 +44,10 @@ struct Lag {
 /// their first sample. Integrals then run over what is there.
 bool covers(const Curve& curve, Window window);
 
-/// The first gap between samples within the window, in which rows are missing and a straight line would be an
-/// invention: longer than 20 times both intervals beside it and a hundredth of the window. Missing when there is none.
+/// The first gap between samples within the window, in which rows are missing: longer than 20 times both intervals
+/// beside it and than `shortest_s`. Missing when there is none.
+std::optional<Window> first_gap(const Curve& curve, Window window, double shortest_s);
+/// One over which a straight line would be an invention: longer than a hundredth of the window too.
 std::optional<Window> first_gap(const Curve& curve, Window window);
 
 /// Why the curve does not cover the window, such as "covers 5.89 s of a window that ends at 6.00 s"; "" when it does.

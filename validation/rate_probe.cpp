@@ -66,7 +66,7 @@ RunCost probe_cost(const Case& c, const RunSettings& settings) {
   cost.time_s = solver->time_s();
   cost.steps = static_cast<double>(solver->steps() - warmed_up);
   cost.fluid = static_cast<double>(solver->fluid_count());
-  cost.solid = static_cast<double>(count_particles(scene_description(c, settings)).solid);
+  cost.solid = static_cast<double>(solver->solid_count());
   cost.wall_time_s = seconds_since(begin) * solver_cost(settings).whole_run_over_first_steps;
   cost.probed = true;
   return cost;

@@ -41,7 +41,8 @@ struct SolverCost {
   double dt_s = 0;  ///< mean time step
   double fluid_steps_per_s_and_thread = 0;
   double whole_run_over_first_steps = 1;  ///< time that a step takes on the mean, over that of a case's first ones
-  double solid_over_fluid = 0;            ///< time that a particle of a wall takes in a step, over that of one of fluid
+  double solid_over_fluid =
+      0;  ///< time that a particle of a wall takes in a step, over that of one of fluid (by the runs on record)
 };
 
 /// Throws std::invalid_argument for an unknown solver.

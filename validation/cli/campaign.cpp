@@ -91,13 +91,13 @@ double print_plan(const Campaign& campaign, bool force, const std::vector<RunCos
   return planned_s;
 }
 
-/// A checkpoint that cannot be gone on with is replaced the campaign's way.
+/// What is refused tells how to begin anew within the campaign, too.
 RunOutcome resume(const fs::path& directory, const ResumeOptions& options, const CampaignArguments& arguments) {
   try {
     return resume_run(directory, options);
   } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("{} [of this campaign: `sluice campaign {} --force --only {}`]", error.what(),
-                                         arguments.file, directory.filename().string()));
+    throw std::runtime_error(fmt::format("{} [anew within its campaign: `sluice campaign {} --force --only {}`]",
+                                         error.what(), arguments.file, directory.filename().string()));
   }
 }
 

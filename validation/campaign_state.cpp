@@ -1,0 +1,98 @@
+// What a campaign's runs are on disk, and what is left to compute of them.
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "validation/campaign.h"
+#include "validation/checkpoint.h"
+#include "validation/manifest.h"
+#include "validation/run_checkpoint.h"
+
+namespace sluice {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// Null where there is none, or where it cannot be read.
+json manifest_of(const fs::path& directory) {
+  std::ifstream in(directory / "run.json");
+  if (!in) return {};
+  json manifest = json::parse(in, nullptr, false);
+  if (!manifest.is_object()) manifest = nullptr;
+  return manifest;
+}
+
+bool same_inputs(const json& manifest, const Case& c, const RunSettings& s) {
+  const auto is = [&](const char* key, const json& value) { return manifest.contains(key) && manifest[key] == value; };
+  return is("case_hash", c.hash) && is("solver", s.solver) && is("walls", s.walls) && is("l0_m", s.l0_m) &&
+         is("t_end_s", s.t_end_s) && is("output_rate_Hz", s.output_rate_Hz) && is("parameters", s.parameters);
+}
+
+/// Where a run goes on; its manifest may be of later. Zero where the checkpoint cannot be read: the run will tell.
+double checkpoint_time_s(const fs::path& directory) {
+  try {
+    return run_header_from(read_checkpoint_header(directory / checkpoint_file)).point.probes.last_t_s;
+  } catch (const std::exception&) {
+    return 0;
+  }
+}
+
+std::string text_of(const json& manifest, const char* key) {
+  return manifest.contains(key) && manifest[key].is_string() ? manifest[key].get<std::string>() : "";
+}
+
+/// Whether snapshots are asked for that the run was not told to write. Manifests that do not say it yet: whether a
+/// finished run has none.
+bool lacks_snapshots(const json& manifest, const CampaignRun& run) {
+  if (run.settings.snapshot_times_s.empty()) return false;
+  if (manifest.contains("snapshot_times_s")) return manifest["snapshot_times_s"] != run.settings.snapshot_times_s;
+  return text_of(manifest, "status") == "finished" && !fs::exists(run.directory / "snapshots.pvd");
+}
+
+}  // namespace
+
+CampaignState state_of(const Campaign& campaign, const CampaignRun& run) {
+  const json manifest = manifest_of(run.directory);
+  if (manifest.is_null()) return CampaignState::absent;
+  if (!same_inputs(manifest, campaign.case_of(run), run.settings)) return CampaignState::outdated;
+  if (lacks_snapshots(manifest, run)) return CampaignState::outdated;
+  if (text_of(manifest, "status") == "finished") return CampaignState::finished;
+  return fs::exists(run.directory / checkpoint_file) ? CampaignState::resumable : CampaignState::incomplete;
+}
+
+std::string to_string(CampaignState state) {
+  switch (state) {
+    case CampaignState::absent:
+      return "to do";
+    case CampaignState::finished:
+      return "finished";
+    case CampaignState::resumable:
+      return "to resume";
+    case CampaignState::incomplete:
+      return "to repeat";
+    case CampaignState::outdated:
+      return "outdated";
+  }
+  return "";
+}
+
+CampaignEstimate estimate(const Campaign& campaign, const CampaignRun& run, const std::vector<RunCost>& costs,
+                          bool anew) {
+  CampaignEstimate e;
+  const Case& c = campaign.case_of(run);
+  e.plan = plan_run(c, run.settings);
+  reckon_by(costs, c, run.settings, e.plan);
+  if (!anew && state_of(campaign, run) == CampaignState::resumable)
+    e.done_share = std::clamp(checkpoint_time_s(run.directory) / run.settings.t_end_s, 0.0, 1.0);
+  return e;
+}
+
+std::vector<RunCost> known_costs(const Campaign& campaign, const std::vector<fs::path>& others) {
+  std::vector<fs::path> directories;
+  for (const CampaignRun& run : campaign.runs) directories.push_back(run.directory);
+  directories.insert(directories.end(), others.begin(), others.end());
+  return run_costs(directories);
+}
+
+}  // namespace sluice

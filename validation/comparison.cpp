@@ -48,8 +48,11 @@ void add_arrivals(Comparison& result, const Series& simulated, const MeasuredSer
   if (!result.arrival_s.measured) {
     result.remarks.push_back("no measured arrival: the series is over the threshold from the start");
   } else if (!result.arrival_s.simulated) {
+    const auto first = value_at(simulated, std::max(result.window.begin_s, simulated.t_s.front()));
     result.remarks.push_back(
-        fmt::format("no simulated arrival: the series does not rise to {:.4g} {}", threshold, result.unit));
+        first && *first >= threshold
+            ? fmt::format("no simulated arrival: the series is over {:.4g} {} from the start", threshold, result.unit)
+            : fmt::format("no simulated arrival: the series does not rise to {:.4g} {}", threshold, result.unit));
   }
 }
 

@@ -11,7 +11,12 @@ namespace sluice {
 
 namespace {
 
-constexpr double safety_factor = 1.25;  // Roache's for three grids or more
+constexpr double formal_order = 2;
+
+double safety_factor(double observed) {
+  return std::abs(observed - formal_order) <= 0.1 * formal_order ? 1.25 : 3;
+}
+
 constexpr double order_searched = 50;
 
 /// Ratio of the coarse to the fine difference that an error proportional to l0^order would show.
@@ -68,8 +73,8 @@ GridConvergence grid_convergence(std::vector<ResolvedValue> results, double lowe
   found.asymptotic = true;
   const double finest = results[0].value;
   const double r21 = results[1].l0_m / results[0].l0_m;
-  found.extrapolated = finest + (finest - results[1].value) / (std::pow(r21, *found.order) - 1);
-  if (finest != 0) found.index = safety_factor * std::abs((*found.extrapolated - finest) / finest);
+  found.extrapolated = finest + (finest - results[1].value) / (std::pow(r21, std::min(*found.order, formal_order)) - 1);
+  if (finest != 0) found.index = safety_factor(*found.order) * std::abs((*found.extrapolated - finest) / finest);
   return found;
 }
 

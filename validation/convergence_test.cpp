@@ -21,7 +21,15 @@ TEST(GridConvergence, FindsAKnownOrderAndLimitAtUnequalRatios) {
   EXPECT_NEAR(*found.order, 1.7, 1e-8);
   EXPECT_NEAR(*found.extrapolated, 10, 1e-8);
   const double finest = 10 + 400 * std::pow(0.02, 1.7);
-  EXPECT_NEAR(*found.index, 1.25 * (finest - 10) / finest, 1e-8);
+  EXPECT_NEAR(*found.index, 3 * (finest - 10) / finest, 1e-8) << "an order that is not the formal one";
+}
+
+TEST(GridConvergence, TrustsNoMoreThanTheFormalOrder) {
+  // Differences 1 and 6 at a ratio of 2: order 2.58, taken as 2.
+  const auto found = grid_convergence({{0.01, 5}, {0.02, 6}, {0.04, 12}});
+  EXPECT_NEAR(*found.order, std::log2(6.0), 1e-9);
+  EXPECT_NEAR(*found.extrapolated, 5 - 1.0 / 3, 1e-9);
+  EXPECT_NEAR(*found.index, 3.0 / 15, 1e-9);
 }
 
 TEST(GridConvergence, AgreesWithTheClosedFormAtEqualRatios) {

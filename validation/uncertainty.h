@@ -29,6 +29,10 @@ struct BiasAndScatter {
   /// 95 %, from the percentiles of a bootstrap over the pairs with a fixed seed; missing with fewer than five pairs.
   std::optional<Interval> bias_interval;
   std::optional<Interval> scatter_interval;
+
+  /// Not where ratios scatter so far that the log-normal form makes most of the bias: exp(scatter^2 / 2) alone is then
+  /// more than 1.2, and one reading that is ten times too small would pass for predictions that are too large.
+  bool tells_bias() const { return scatter <= 0.6; }
 };
 
 struct PredictedAndMeasured {

@@ -78,9 +78,9 @@ TEST(ValidationUncertainty, IsTheRootOfTheSquaresOfWhatIsKnown) {
 }
 
 TEST(ValidationUncertainty, OfResolutionFollowsFromTheGridConvergenceIndex) {
-  // f = 10 + l0: order 1, extrapolated 10, index 1.25 * 1 / 11 at l0 = 1.
+  // f = 10 + l0: order 1, extrapolated 10, index 3 * 1 / 11 at l0 = 1.
   const GridConvergence c = grid_convergence({{1, 11}, {2, 12}, {4, 14}});
-  EXPECT_NEAR(*resolution_uncertainty(c, 11), 1.25 / 1.15, 1e-6);
+  EXPECT_NEAR(*resolution_uncertainty(c, 11), 3 / 1.15, 1e-6);
   EXPECT_FALSE(resolution_uncertainty(grid_convergence({{1, 11}, {2, 10}, {4, 14}}), 11));
 }
 

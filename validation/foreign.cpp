@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -12,6 +11,7 @@
 #include "validation/curve.h"
 #include "validation/file_error.h"
 #include "validation/file_hash.h"
+#include "validation/foreign_columns.h"
 #include "validation/manifest.h"
 #include "validation/metrics.h"
 #include "validation/printable.h"
@@ -106,35 +106,6 @@ ForeignFile parse_file(TomlReader& reader, const Case& c, const fs::path& folder
   for (TomlReader& column : reader.tables("columns")) f.columns.push_back(parse_column(column, c));
   reader.finish();
   return f;
-}
-
-/// Column numbers, from 0 on, in the order of the file's columns; by name or by number.
-std::size_t index_of(const TextTableReader& reader, const std::vector<std::string>& names, const std::string& column) {
-  if (const auto found = std::find(names.begin(), names.end(), column); found != names.end()) {
-    if (std::find(found + 1, names.end(), column) != names.end())
-      reader.fail(fmt::format("column \"{}\" occurs twice; give its number", column));
-    return static_cast<std::size_t>(found - names.begin());
-  }
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(column.data(), column.data() + column.size(), number);
-  if (error == std::errc{} && end == column.data() + column.size() && number >= 1 && number <= names.size())
-    return number - 1;
-  reader.fail(fmt::format("no column \"{}\"; there are {}: {} (is the separator right?)", printable(column),
-                          names.size(), printable(fmt::format("{}", fmt::join(names, " | ")), 500)));
-}
-
-/// Names of the columns: of the last header line, or numbers where there is none.
-std::vector<std::string> column_names(TextTableReader& reader, const ForeignFile& f) {
-  std::string line;
-  for (int k = 0; k < f.header_lines; ++k) line = reader.next_header_line();
-  if (f.header_lines > 0) {
-    std::vector<std::string> names = split_fields(line, f.separator);
-    while (f.separator == '\t' && !names.empty() && names.back().empty()) names.pop_back();  // tabs at its end
-    return names;
-  }
-  std::vector<std::string> numbers(reader.count_fields(f.separator));
-  for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = std::to_string(k + 1);
-  return numbers;
 }
 
 ProbeTable read_file(TextTableReader& reader, const ForeignFile& f, std::int64_t& skipped) {

@@ -118,6 +118,32 @@ columns = [ { sensor = "P2", column = "3", unit = "hPa" } ]
   EXPECT_THAT(t.values("P2_Pa"), ElementsAre(100, 200));
 }
 
+/// As OpenFOAM's function object `probes` writes them.
+TEST_F(ForeignTest, CommentsForAHeaderNameTheFirstColumn) {
+  write("p.dat", "# Probe 0 (0.66 0.5 0.02)\n#       Probe  0   1\n#        Time\n  0.0   10  1\n  0.1   20  2\n");
+  const std::string map = R"([[files]]
+file = "p.dat"
+separator = "blank"
+header_lines = 3
+time = { column = "Time", unit = "s" }
+columns = [ { sensor = "P2", column = "3", unit = "hPa" } ]
+)";
+  EXPECT_THAT(read(map).values("P2_Pa"), ElementsAre(100, 200));
+  write("p.dat", "# a comment\n\n# t p\n0 1 2\n");
+  EXPECT_THAT(refusal(map), HasSubstr("no column \"Time\"; there are 3: t | 2 | 3"))
+      << "which column `p` is nobody can tell";
+}
+
+TEST_F(ForeignTest, QuotesAroundNamesAreNotTheirs) {
+  write("q.csv", "\"time [s]\",\"p\"\n0,1\n0.5,2\n");
+  const ProbeTable t = read(R"([[files]]
+file = "q.csv"
+time = { column = "time [s]", unit = "s" }
+columns = [ { sensor = "P1", column = "p", unit = "kPa" } ]
+)");
+  EXPECT_THAT(t.values("P1_Pa"), ElementsAre(1000, 2000));
+}
+
 /// A map's entry for a file of times `t` and one column.
 std::string mapped(const std::string& file, const std::string& time_unit, const std::string& sensor,
                    const std::string& column, const std::string& unit) {

@@ -114,7 +114,11 @@ std::vector<fs::path> RunRecord::snapshots() const {
 
 RunRecord read_run(const fs::path& directory) {
   if (!fs::is_directory(directory))
-    throw std::runtime_error(fmt::format("{}: no such run directory (give the --out of a run)", directory.string()));
+    throw std::runtime_error(
+        fs::exists(directory)
+            ? fmt::format("{}: is a file, not a run directory (write a map for it, see the README, and compare that)",
+                          directory.string())
+            : fmt::format("{}: no such run directory (give the --out of a run)", directory.string()));
   RunRecord run = parse_run(manifest_text(directory / "run.json"), directory);
   if (run.status() != "failed" || fs::exists(directory / "probes.csv"))
     run.probes = read_probes(directory / "probes.csv");

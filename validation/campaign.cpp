@@ -67,7 +67,7 @@ Group parse_group(TomlReader reader, Campaign& campaign, const fs::path& file, i
 fs::path directory_of(const Case& c, const RunSettings& settings, const Group& group, const fs::path& out) {
   std::string name = default_run_directory(c, settings).filename().string();
   for (const auto& [key, value] : group.request.overrides)
-    if (key != "t_end_s" || value != c.t_end_s) name += fmt::format("-{}{:g}", key, value);
+    if (key != "t_end_s" || value != c.t_end_s) name += fmt::format("-{}{}", key, value);
   return out / name;
 }
 

@@ -60,6 +60,10 @@ enum class CampaignState {
   outdated,    ///< computed from other inputs: another case file, other parameters, without the snapshots asked for
 };
 CampaignState state_of(const Campaign& campaign, const CampaignRun& run);
+/// Whether a run has ended with the inputs of today; it may lack snapshots.
+bool can_be_reported(const Campaign& campaign, const CampaignRun& run);
+/// What is not as asked for in an outdated run: "not as in its run.json: parameters"; empty for others.
+std::string why_outdated(const Campaign& campaign, const CampaignRun& run);
 std::string to_string(CampaignState state);
 
 /// What a run will cost.

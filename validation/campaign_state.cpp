@@ -1,4 +1,7 @@
 // What a campaign's runs are on disk, and what is left to compute of them.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -23,10 +26,17 @@ json manifest_of(const fs::path& directory) {
   return manifest;
 }
 
-bool same_inputs(const json& manifest, const Case& c, const RunSettings& s) {
-  const auto is = [&](const char* key, const json& value) { return manifest.contains(key) && manifest[key] == value; };
-  return is("case_hash", c.hash) && is("solver", s.solver) && is("walls", s.walls) && is("l0_m", s.l0_m) &&
-         is("t_end_s", s.t_end_s) && is("output_rate_Hz", s.output_rate_Hz) && is("parameters", s.parameters);
+/// Keys of a manifest that are not as the run is asked for.
+std::vector<std::string> other_inputs(const json& manifest, const Case& c, const RunSettings& s) {
+  const std::vector<std::pair<const char*, json>> inputs{
+      {"case_hash", c.hash},       {"solver", s.solver},
+      {"walls", s.walls},          {"l0_m", s.l0_m},
+      {"t_end_s", s.t_end_s},      {"output_rate_Hz", s.output_rate_Hz},
+      {"parameters", s.parameters}};
+  std::vector<std::string> others;
+  for (const auto& [key, value] : inputs)
+    if (!manifest.contains(key) || manifest[key] != value) others.emplace_back(key);
+  return others;
 }
 
 /// Where a run goes on; its manifest may be of later. Zero where the checkpoint cannot be read: the run will tell.
@@ -55,10 +65,24 @@ bool lacks_snapshots(const json& manifest, const CampaignRun& run) {
 CampaignState state_of(const Campaign& campaign, const CampaignRun& run) {
   const json manifest = manifest_of(run.directory);
   if (manifest.is_null()) return CampaignState::absent;
-  if (!same_inputs(manifest, campaign.case_of(run), run.settings)) return CampaignState::outdated;
+  if (!other_inputs(manifest, campaign.case_of(run), run.settings).empty()) return CampaignState::outdated;
   if (lacks_snapshots(manifest, run)) return CampaignState::outdated;
   if (text_of(manifest, "status") == "finished") return CampaignState::finished;
   return fs::exists(run.directory / checkpoint_file) ? CampaignState::resumable : CampaignState::incomplete;
+}
+
+bool can_be_reported(const Campaign& campaign, const CampaignRun& run) {
+  const json manifest = manifest_of(run.directory);
+  return !manifest.is_null() && text_of(manifest, "status") == "finished" &&
+         other_inputs(manifest, campaign.case_of(run), run.settings).empty();
+}
+
+std::string why_outdated(const Campaign& campaign, const CampaignRun& run) {
+  if (state_of(campaign, run) != CampaignState::outdated) return "";
+  const json manifest = manifest_of(run.directory);
+  const auto others = other_inputs(manifest, campaign.case_of(run), run.settings);
+  if (others.empty()) return "without the snapshots asked for";
+  return fmt::format("not as in its run.json: {}", fmt::join(others, ", "));
 }
 
 std::string to_string(CampaignState state) {

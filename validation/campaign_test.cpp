@@ -154,6 +154,17 @@ TEST_F(CampaignTest, StatesFollowInputs) {
   other["parameters"]["delta"] = 0.05;
   put(run, other);
   EXPECT_EQ(state_of(c, run), CampaignState::outdated);
+  EXPECT_EQ(why_outdated(c, run), "not as in its run.json: parameters");
+  EXPECT_FALSE(can_be_reported(c, run));
+}
+
+TEST_F(CampaignTest, NumbersAlikeInSixDigitsAreRunsOfTheirOwn) {
+  const Campaign c = load(
+      "name = \"c\"\n[[runs]]\ncase = \"kleefsman\"\nsolver = \"mps\"\nl0_m = [0.05]\nparameters = { restitution = "
+      "0.1234567 }\n"
+      "[[runs]]\ncase = \"kleefsman\"\nsolver = \"mps\"\nl0_m = [0.05]\nparameters = { restitution = 0.1234568 }\n");
+  EXPECT_EQ(c.runs.size(), 2U);
+  EXPECT_EQ(c.runs[0].directory.filename(), "kleefsman-mps-dummies-l0.050-restitution0.1234567");
 }
 
 TEST_F(CampaignTest, TimesAreScaledFromTheNearestFinishedRunOfItsKind) {
@@ -316,6 +327,8 @@ TEST_F(CampaignTest, ARunWithoutTheSnapshotsAskedForIsOutdated) {
   const CampaignRun& run = campaign.runs.at(0);
   put(run, manifest(campaign, run, "finished"));
   EXPECT_EQ(state_of(campaign, run), CampaignState::outdated);
+  EXPECT_EQ(why_outdated(campaign, run), "without the snapshots asked for");
+  EXPECT_TRUE(can_be_reported(campaign, run)) << "its series are what the report is of";
   std::ofstream(run.directory / "snapshots.pvd") << "\n";
   EXPECT_EQ(state_of(campaign, run), CampaignState::finished);
   auto begun = manifest(campaign, run, "interrupted");

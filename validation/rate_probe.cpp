@@ -14,6 +14,7 @@ namespace {
 constexpr int steps_to_warm_up = 3;
 constexpr int fewest_steps = 5;
 constexpr double probe_s = 1;
+constexpr double longest_probe_s = 10;  // whatever else the machine does: a rough time is better than none for minutes
 constexpr double worth_a_probe_s = 20;
 constexpr std::int64_t most_particles = 300'000;
 
@@ -53,10 +54,14 @@ void probe_into(std::vector<RunCost>& probed, const Case& c, const RunSettings& 
 
 RunCost probe_cost(const Case& c, const RunSettings& settings) {
   const auto solver = make_solver(c, build_scene(scene_description(c, settings)), settings);
-  for (int k = 0; k < steps_to_warm_up; ++k) solver->step();
+  const auto start = std::chrono::steady_clock::now();
+  for (int k = 0; k < steps_to_warm_up && seconds_since(start) < longest_probe_s; ++k) solver->step();
   const std::int64_t warmed_up = solver->steps();
   const auto begin = std::chrono::steady_clock::now();
-  while (solver->steps() < warmed_up + fewest_steps || seconds_since(begin) < probe_s) solver->step();
+  do {
+    solver->step();
+  } while ((solver->steps() < warmed_up + fewest_steps || seconds_since(begin) < probe_s) &&
+           seconds_since(start) < longest_probe_s);
   RunCost cost;
   cost.case_hash = c.hash;
   cost.solver = settings.solver;

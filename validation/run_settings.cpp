@@ -146,7 +146,7 @@ std::pair<std::string, double> parse_override(const std::string& text) {
 }
 
 std::filesystem::path default_run_directory(const Case& c, const RunSettings& settings) {
-  std::string name = fmt::format("{}-{}-{}-l{:.4g}", c.name, settings.solver, settings.walls, settings.l0_m);
+  std::string name = fmt::format("{}-{}-{}-l{}", c.name, settings.solver, settings.walls, settings.l0_m);
   // 0.02 and 0.015 line up in a listing as 0.020 and 0.015.
   if (const std::string padded = fmt::format("{:.3f}", settings.l0_m);
       std::abs(std::stod(padded) - settings.l0_m) < 1e-12)

@@ -68,6 +68,12 @@ double remaining_s(const Campaign& campaign, std::size_t from, bool force, const
   return sum;
 }
 
+/// " (without the snapshots asked for)" of an outdated run.
+std::string reason(const Campaign& campaign, const CampaignRun& run) {
+  const std::string why = why_outdated(campaign, run);
+  return why.empty() ? "" : fmt::format(" ({})", why);
+}
+
 /// Returns the time that it expects for all [s].
 double print_plan(const Campaign& campaign, bool force, const std::vector<RunCost>& costs) {
   std::size_t to_do = 0;
@@ -78,7 +84,7 @@ double print_plan(const Campaign& campaign, bool force, const std::vector<RunCos
     fmt::print("{:10} {:>9} fluid {:>9} solid {:>8} {:>14}{}  {}\n", to_string(state), e.plan.particles.fluid,
                e.plan.particles.solid, human_bytes(static_cast<double>(e.plan.memory_bytes)),
                state == CampaignState::finished && !force ? "" : human_time(e.remaining_s()),
-               e.plan.basis == PlanBasis::run ? " " : "*", run.directory.filename().string());
+               e.plan.basis == PlanBasis::run ? " " : "*", run.directory.filename().string() + reason(campaign, run));
     to_do += force || state != CampaignState::finished;
     most_bytes = std::max(most_bytes, e.plan.memory_bytes);
   }
@@ -171,8 +177,7 @@ void report_cases(const Campaign& campaign, const fs::path& out) {
   for (const Case& c : campaign.cases) {
     std::vector<fs::path> directories;
     for (const CampaignRun& run : campaign.runs)
-      if (&campaign.case_of(run) == &c && state_of(campaign, run) == CampaignState::finished)
-        directories.push_back(run.directory);
+      if (&campaign.case_of(run) == &c && can_be_reported(campaign, run)) directories.push_back(run.directory);
     if (directories.empty()) continue;
     const fs::path folder = out / ("report-" + c.name);
     write_report(directories, folder);
@@ -180,15 +185,15 @@ void report_cases(const Campaign& campaign, const fs::path& out) {
   }
 }
 
-/// 0 when all runs are finished.
+/// 0 when all runs are finished, with or without snapshots.
 int report_only(const Campaign& campaign, const fs::path& out) {
   report_cases(campaign, out);
   int code = 0;
   for (const CampaignRun& run : campaign.runs) {
-    const CampaignState state = state_of(campaign, run);
-    if (state == CampaignState::finished) continue;
-    fmt::print("{:12} {}\n", to_string(state), run.directory.filename().string());
-    code = 1;
+    if (state_of(campaign, run) == CampaignState::finished) continue;
+    fmt::print("{:12} {}{}\n", to_string(state_of(campaign, run)), run.directory.filename().string(),
+               reason(campaign, run));
+    if (!can_be_reported(campaign, run)) code = 1;
   }
   return code;
 }
@@ -270,6 +275,8 @@ int run(const CampaignArguments& arguments) {
   const bool slurm = arguments.engine == "slurm";
   if (!slurm && (!arguments.partition.empty() || !arguments.time_limit.empty()))
     throw UsageError("--partition and --time-limit are for --engine slurm");
+  if (arguments.report_only && !arguments.only.empty())
+    throw UsageError("--report-only: not with --only (sluice report RUN... makes a report of some runs)");
   if (arguments.report_only) return report_only(campaign, out);
   if (!arguments.only.empty()) keep_only(campaign, arguments);
   if (!arguments.only.empty() && !arguments.dry_run && !slurm) return compute_only(campaign, arguments);

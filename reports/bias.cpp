@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "reports/quantity.h"
 
@@ -18,8 +19,11 @@ const Pair& impulse_pair(const Comparison& c) {
 const Pair& smoothed_peak_pair(const Comparison& c) {
   return c.smoothed_peak;
 }
-const Pair& peak_pair(const Comparison& c) {
-  return c.peak;
+/// Not of a probe in the reservoir, whose measured maximum is the filling that the case prescribes.
+const Pair& wave_pair(const Comparison& c) {
+  constexpr double filling_s = 0.1;
+  static const Pair none;
+  return c.peak_time_s.measured && *c.peak_time_s.measured < filling_s ? none : c.peak;
 }
 const Pair& arrival_pair(const Comparison& c) {
   return c.arrival_s;
@@ -29,8 +33,12 @@ const Pair& arrival_pair(const Comparison& c) {
 /// its own and says nothing of the one that it cuts something from.
 std::vector<RunGroup> methods(const ReportData& data) {
   std::vector<RunGroup> groups;
+  std::set<std::string> seen;  // one run under two names is one prediction
   for (const AnalysedRun& run : data.runs) {
     const std::string title = run.group + parameters_text(changed_parameters(run.record, data.the_case));
+    const std::string what =
+        fmt::format("{} {} {} {}", title, run.record.l0_m, run.record.alpha().value_or(0), run.series_hash);
+    if (!run.series_hash.empty() && !seen.insert(what).second) continue;
     auto found = std::find_if(groups.begin(), groups.end(), [&](const RunGroup& g) { return g.title == title; });
     if (found == groups.end()) found = groups.insert(groups.end(), {title, {}});
     found->runs.push_back(&run);
@@ -72,7 +80,7 @@ std::vector<BiasQuantity> bias_quantities(const ReportData& data) {
     add(out, data, kind, fmt::format("Arrival at {}", name), "s", 1, arrival_pair);
   }
   const Quantity& wave = quantity_of(SensorKind::wave_height);
-  add(out, data, SensorKind::wave_height, "Highest wave", wave.drawn_unit, wave.drawn_scale, peak_pair);
+  add(out, data, SensorKind::wave_height, "Highest wave", wave.drawn_unit, wave.drawn_scale, wave_pair);
   return out;
 }
 

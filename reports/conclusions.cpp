@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "reports/studies.h"
 #include "reports/text.h"
@@ -12,10 +13,13 @@ namespace sluice::conclusions {
 
 namespace {
 
+constexpr double scatter_of_runs = 0.1;
+
 TableCell verdict(const Evidence& ours) {
-  if (ours.lacks_measurement) return word("no measurement", Tone::missing);
+  if (ours.verdict == Verdict::no_measurement) return word("no measurement", Tone::missing);
   if (ours.words.empty()) return missing();
-  return ours.agrees ? word("agrees", Tone::good) : word("does not agree", Tone::bad);
+  if (ours.verdict == Verdict::not_told) return word("no difference told");
+  return ours.verdict == Verdict::agrees ? word("agrees", Tone::good) : word("does not agree", Tone::bad);
 }
 
 void remember(std::vector<std::string>& names, const std::string& name) {
@@ -37,12 +41,61 @@ std::vector<WallsScope> scopes_of(const std::vector<std::string>& walls) {
   return scopes;
 }
 
-/// Whether a run stands for its method as the case has it: of this program, whole, with the case's parameters.
-bool stands_for_its_method(const AnalysedRun& run, const Case& c) {
-  return run.record.own && run.record.status() == "finished" && changed_parameters(run.record, c).empty();
+bool is_whole(const AnalysedRun& run, const std::string& solver) {
+  return run.record.own && run.record.status() == "finished" && run.record.solver == solver;
+}
+
+bool reaches_the_end(const ReportData& data, double t_end_s) {
+  return t_end_s >= data.window.end_s * (1 - 1e-9);
+}
+
+/// Runs that reach the window's end come before others, then the finer ones.
+bool tells_more(const ReportData& data, const BothMethods& a, const BothMethods& b) {
+  if (b.mps.empty()) return true;
+  const auto end_s = [](const BothMethods& both) { return both.mps.front()->record.number("t_end_s").value_or(0); };
+  const bool whole_a = reaches_the_end(data, end_s(a));
+  const bool whole_b = reaches_the_end(data, end_s(b));
+  return whole_a != whole_b ? whole_a : a.l0_m < b.l0_m;
 }
 
 }  // namespace
+
+Verdict smaller(double claimed, double other) {
+  if (claimed < (1 - scatter_of_runs) * other) return Verdict::agrees;
+  return other < (1 - scatter_of_runs) * claimed ? Verdict::does_not_agree : Verdict::not_told;
+}
+
+Verdict all_of(Verdict a, Verdict b) {
+  for (const Verdict worst : {Verdict::no_measurement, Verdict::does_not_agree, Verdict::not_told})
+    if (a == worst || b == worst) return worst;
+  return Verdict::agrees;
+}
+
+std::map<std::string, double> judged_parameters(const ReportData& data, const std::string& solver) {
+  std::map<std::map<std::string, double>, int> runs;
+  for (const AnalysedRun& run : data.runs)
+    if (is_whole(run, solver)) ++runs[changed_parameters(run.record, data.the_case)];
+  if (runs.empty() || runs.contains({})) return {};
+  return std::max_element(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+void note_judged_parameters(Table& table, const ReportData& data) {
+  for (const auto& [solver, name] : {std::pair("mps", "MPS"), std::pair("wcsph", "WCSPH")})
+    if (const std::string text = parameters_text(judged_parameters(data, solver)); !text.empty())
+      table.notes.push_back(fmt::format("{} is judged by its runs with {}: none has the case's parameters throughout.",
+                                        name, text.substr(2)));
+}
+
+std::vector<const AnalysedRun*> judged_runs(const ReportData& data, const std::string& solver,
+                                            const WallsScope& scope) {
+  const auto parameters = judged_parameters(data, solver);
+  std::vector<const AnalysedRun*> runs;
+  for (const AnalysedRun& run : data.runs)
+    if (is_whole(run, solver) && scope.has(run) && changed_parameters(run.record, data.the_case) == parameters)
+      runs.push_back(&run);
+  return runs;
+}
 
 void add(Table& table, const std::string& statement, const std::string& paper, const Evidence& ours) {
   table.add({word(statement), word(paper.empty() ? "missing" : paper),
@@ -71,16 +124,15 @@ std::vector<WallsScope> alpha_scopes(const ReportData& data) {
 
 BothMethods finest_of_both(const ReportData& data, const WallsScope& scope) {
   BothMethods finest;
-  for (const AnalysedRun& run : data.runs) {
-    if (run.record.solver != "mps" || !stands_for_its_method(run, data.the_case)) continue;
+  const auto mps = judged_runs(data, "mps");
+  const auto wcsph = judged_runs(data, "wcsph", scope);
+  for (const AnalysedRun* run : mps) {
     BothMethods both;
-    both.l0_m = run.record.l0_m;
-    for (const AnalysedRun& other : data.runs) {
-      if (!stands_for_its_method(other, data.the_case) || !same_flow(data, run.record, other.record)) continue;
-      if (other.record.solver == "mps") both.mps.push_back(&other);
-      if (other.record.solver == "wcsph" && scope.has(other)) both.wcsph.push_back(&other);
-    }
-    if (!both.wcsph.empty() && (finest.mps.empty() || both.l0_m < finest.l0_m)) finest = both;
+    both.l0_m = run->record.l0_m;
+    const auto alike = [&](const AnalysedRun* other) { return same_flow(data, run->record, other->record); };
+    std::copy_if(mps.begin(), mps.end(), std::back_inserter(both.mps), alike);
+    std::copy_if(wcsph.begin(), wcsph.end(), std::back_inserter(both.wcsph), alike);
+    if (!both.wcsph.empty() && tells_more(data, both, finest)) finest = both;
   }
   return finest;
 }

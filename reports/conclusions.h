@@ -1,6 +1,7 @@
 // What the rows on the paper's statements share: how a statement is judged, and by which runs.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,11 +12,23 @@
 
 namespace sluice::conclusions {
 
+enum class Verdict {
+  agrees,
+  does_not_agree,
+  not_told,        ///< the difference is no larger than what runs scatter by
+  no_measurement,  ///< the statement needs one that nobody supplied
+};
+
+/// On the claim that one error is smaller than another. Runs that differ in nothing but rounding scatter by a few per
+/// cent, so that less than a tenth decides nothing.
+Verdict smaller(double claimed, double other);
+/// On a claim made of several: all have to hold.
+Verdict all_of(Verdict a, Verdict b);
+
 /// What our runs say to a statement; no words: nothing can be said.
 struct Evidence {
   std::string words;
-  bool agrees = false;
-  bool lacks_measurement = false;  ///< the statement needs one that nobody supplied
+  Verdict verdict = Verdict::does_not_agree;
 };
 
 /// A row: the statement, the paper's evidence, ours, and the verdict.
@@ -38,7 +51,16 @@ std::vector<WallsScope> walls_scopes(const ReportData& data);
 /// The same with those of other codes' runs that differ in alpha alone.
 std::vector<WallsScope> alpha_scopes(const ReportData& data);
 
-/// MPS and WCSPH runs of the finest particle distance that has both.
+/// By which runs a method of this program is judged: whole ones with the case's parameters, or where there are none the
+/// largest set of runs that are alike in what they have otherwise.
+std::map<std::string, double> judged_parameters(const ReportData& data, const std::string& solver);
+/// A note on every method that is judged by other parameters than the case's.
+void note_judged_parameters(Table& table, const ReportData& data);
+/// The runs of a method by which it is judged.
+std::vector<const AnalysedRun*> judged_runs(const ReportData& data, const std::string& solver,
+                                            const WallsScope& scope = {});
+
+/// MPS and WCSPH runs of the finest particle distance that has both, of those that reach the window's end if any do.
 struct BothMethods {
   std::vector<const AnalysedRun*> mps;
   std::vector<const AnalysedRun*> wcsph;

@@ -35,6 +35,8 @@ PlotCurve run_curve(const AnalysedRun& run, const Series& series, Window window,
 std::vector<Picture> series_figures(const FigureMaker& maker, SensorKind kind, bool raw = false);
 /// The same over the whole window with both methods in each panel, for sensors of which the paper has such a figure.
 std::vector<Picture> method_figures(const FigureMaker& maker, SensorKind kind);
+/// The same with runs of other codes beside the references (beside_references()), for every sensor.
+std::vector<Picture> other_code_figures(const FigureMaker& maker, SensorKind kind);
 /// The same wave heights as read by model `top`, where that is not the primary reading.
 std::vector<Picture> spray_figures(const FigureMaker& maker);
 /// The first impact on each sensor of a kind, raw.

@@ -99,8 +99,15 @@ struct Place {
 
 std::string run_tick(const AnalysedRun& run) {
   const RunRecord& r = run.record;
-  return fmt::format("{} {}{}, {:g} mm", run.key, r.walls.empty() ? r.solver : r.walls,
+  return fmt::format("{} {}{}, {:g} mm", run.key, r.walls.empty() || !r.own ? r.solver : r.walls,
                      r.alpha() ? " α " + shortest(*r.alpha()) : "", 1000 * r.l0_m);
+}
+
+std::optional<double> overview_deviation(const ReportData& data, const Place& place, const std::string& sensor) {
+  if (place.published != nullptr)
+    return published_deviation(data, sensor, place.published->source, place.published->alpha);
+  const SensorReading* reading = place.run->primary(sensor);
+  return reading == nullptr ? std::nullopt : reading->comparison.impulse.deviation();
 }
 
 std::vector<Place> overview_places(const ReportData& data) {
@@ -110,16 +117,14 @@ std::vector<Place> overview_places(const ReportData& data) {
     if (row.sensor == data.headline_sensors().front() && row.source != "experiment")
       places.push_back(
           {row.source == "mps" ? "paper MPS" : "paper α " + (row.alpha ? shortest(*row.alpha) : ""), nullptr, &row});
-  for (const AnalysedRun& run : data.runs)
-    if (mean_impulse_error(data, run)) places.push_back({run_tick(run), &run, nullptr});
+  const std::vector<std::string> sensors = data.headline_sensors();
+  for (const AnalysedRun& run : data.runs) {
+    const Place place{run_tick(run), &run, nullptr};
+    if (std::any_of(sensors.begin(), sensors.end(),
+                    [&](const std::string& sensor) { return overview_deviation(data, place, sensor).has_value(); }))
+      places.push_back(place);
+  }
   return places;
-}
-
-std::optional<double> overview_deviation(const ReportData& data, const Place& place, const std::string& sensor) {
-  if (place.published != nullptr)
-    return published_deviation(data, sensor, place.published->source, place.published->alpha);
-  const SensorReading* reading = place.run->primary(sensor);
-  return reading == nullptr ? std::nullopt : reading->comparison.impulse.deviation();
 }
 
 }  // namespace
@@ -208,14 +213,14 @@ PlotPanel alpha_panel(const ReportData& data, const std::string& sensor, const s
       curve.x.push_back(*run->record.alpha());
       curve.y.push_back(*value);
     }
-    panel.curves.push_back(std::move(curve));
+    if (!curve.x.empty()) panel.curves.push_back(std::move(curve));
   }
   return panel;
 }
 
 namespace {
 
-/// Runs and paper, with the line of no deviation across.
+/// Runs and paper, with the line of no deviation across; without curves where there is nothing to show.
 PlotPanel impulse_alpha_panel(const ReportData& data, const std::string& sensor) {
   PlotPanel panel = alpha_panel(data, sensor, "deviation of impulse [%]",
                                 [](const Comparison& c) { return scaled(c.impulse.deviation(), 100); });
@@ -230,6 +235,7 @@ PlotPanel impulse_alpha_panel(const ReportData& data, const std::string& sensor)
       paper.y.push_back(100 * published_deviation(data, sensor, "wcsph", row.alpha).value_or(NAN));
     }
   if (!paper.x.empty()) panel.curves.push_back(std::move(paper));
+  if (panel.curves.empty()) return panel;
   panel.x_range = alpha_range(panel);
   panel.curves.push_back(zero_line(*panel.x_range.first, *panel.x_range.second));
   return panel;
@@ -245,6 +251,7 @@ std::vector<Picture> alpha_figures(const FigureMaker& maker) {
     figure.name = "alpha_" + sensor;
     figure.source = "primary readings";
     figure.panels = {impulse_alpha_panel(maker.data, sensor)};
+    if (figure.panels.front().curves.empty()) continue;
     pictures.push_back(draw_picture(
         maker, figure, fmt::format("Deviation of the impulse at {} against the artificial viscosity.", sensor),
         fmt::format("Deviation of the impulse at {} against alpha, runs and paper", sensor)));

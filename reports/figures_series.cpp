@@ -7,6 +7,7 @@
 
 #include "reports/quantity.h"
 #include "reports/series_panels.h"
+#include "reports/studies.h"
 
 namespace sluice {
 namespace {
@@ -113,7 +114,7 @@ std::vector<Picture> method_figures(const FigureMaker& maker, SensorKind kind) {
     const int number = published_number(data, sensor.name);
     if (sensor.kind != kind || number == 0) continue;
     Cut cut = spike_limit(data, sensor);
-    auto panels = method_panels(data, sensor, {"", data.window, smoothed}, cut);
+    auto panels = shared_panels(data, method_groups(data, runs_a_panel), sensor, {"", data.window, smoothed}, cut);
     if (panels.empty()) continue;
     share_range(panels, cut);
     const std::string caption =
@@ -122,6 +123,27 @@ std::vector<Picture> method_figures(const FigureMaker& maker, SensorKind kind) {
     pictures.push_back(draw_series(maker, "methods_" + sensor.name, std::move(panels),
                                    with_remark(data, sensor, caption),
                                    fmt::format("{} over time, experiment, MPS and WCSPH", axis_name(sensor))));
+  }
+  return pictures;
+}
+
+std::vector<Picture> other_code_figures(const FigureMaker& maker, SensorKind kind) {
+  std::vector<Picture> pictures;
+  const ReportData& data = maker.data;
+  const std::vector<RunGroup> groups = beside_references(data, runs_a_panel);
+  if (!maker.enabled || groups.empty()) return pictures;
+  const bool smoothed = quantity_of(kind).spikes;
+  for (const CaseSensor& sensor : data.the_case.sensors) {
+    if (sensor.kind != kind) continue;
+    Cut cut = spike_limit(data, sensor);
+    auto panels = shared_panels(data, groups, sensor, {"", data.window, smoothed}, cut);
+    if (panels.empty()) continue;
+    share_range(panels, cut);
+    const std::string caption = fmt::format("{}, other codes on one axis with the references: {}primary readings.{}",
+                                            headed(sensor), smoothed ? smoothed_words : "", axis_remark(cut));
+    pictures.push_back(
+        draw_series(maker, "codes_" + sensor.name, std::move(panels), with_remark(data, sensor, caption),
+                    fmt::format("{} over time, experiment, other codes and references", axis_name(sensor))));
   }
   return pictures;
 }

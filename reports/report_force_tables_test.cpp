@@ -99,7 +99,8 @@ TEST(ForceTables, ErrorsStandBesideWhatIsUncertain) {
   const Table table = validation_uncertainty_table(analyse(runs));
   const double measured = *cell(table, "F_column impulse", "measured").value;
   EXPECT_NEAR(*cell(table, "F_column impulse", "error").value, 0.15 * measured, 0.01 * measured);
-  EXPECT_NEAR(*cell(table, "F_column impulse", "u_num").value, 1.25 / 1.15 * 0.05 * measured, 0.005 * measured);
+  EXPECT_NEAR(*cell(table, "F_column impulse", "u_num").value, 3 / 1.15 * 0.05 * measured, 0.012 * measured)
+      << "an order that is not the formal one";
   EXPECT_GT(*cell(table, "F_column impulse", "u_D").value, 0.5) << "[N s]: a band of 1.4 N over two seconds";
   EXPECT_EQ(cell(table, "F_column impulse", "u_input").text, "missing");
 }
@@ -155,8 +156,8 @@ TEST(ForceTables, StatementsOnTheForceNeedAMeasurementOrNot) {
   ASSERT_EQ(table.rows.size(), 4u);
   EXPECT_EQ(cell(table, "α = 0.1 gives the best force", "verdict").text, "no measurement");
   EXPECT_EQ(cell(table, "Oscillations", "verdict").text, "agrees") << cell(table, "Oscillations", "runs").text;
-  EXPECT_EQ(cell(table, "MPS costs 2.0 times WCSPH", "paper").text, "1.2 times at l0 = 5 mm, 2.0 times at l0 = 2.5 mm");
-  EXPECT_EQ(cell(table, "MPS costs 2.0 times WCSPH", "verdict").text, "does not agree") << "the same cost";
+  EXPECT_EQ(cell(table, "MPS costs", "paper").text, "1.25 times at l0 = 5 mm, 2.00 times at l0 = 2.5 mm");
+  EXPECT_EQ(cell(table, "MPS costs 2.00 times WCSPH", "verdict").text, "does not agree") << "the same cost";
 }
 
 /// Of two runs at one alpha neither comes after the other: what their folders are called must not decide.
@@ -191,10 +192,10 @@ TEST(ForceTables, CostsAreComparedOnOneMachineAndWithThePapersAtThatDistance) {
   synthetic::write_force_run(mps, run);
   put_in_manifest(wcsph, {{"cpu_time_s", 1000.0}, {"machine", "one"}});
   put_in_manifest(mps, {{"cpu_time_s", 1250.0}, {"machine", "one"}});
-  const char* const statement = "MPS costs 2.0 times WCSPH";
+  const char* const statement = "MPS costs 1.25 times WCSPH";
   EXPECT_EQ(cell(conclusions_table(analyse({wcsph, mps})), statement, "verdict").text, "agrees") << "1.25 at 5 mm";
   put_in_manifest(mps, {{"machine", "another"}});
-  EXPECT_EQ(cell(conclusions_table(analyse({wcsph, mps})), statement, "verdict").text, "missing");
+  EXPECT_EQ(cell(conclusions_table(analyse({wcsph, mps})), "MPS costs", "verdict").text, "missing");
 }
 
 TEST(ForceTables, LengthsThatSourcesLeaveOpenHaveTheirTableAndAreNoResolutionOrAlpha) {

@@ -53,12 +53,33 @@ class BothMethods : public testing::Test {
   /// What is drawn of P1; the words say which runs go beyond 1 Pa.
   std::vector<PlotPanel> panels(const ReportData& data) {
     cut_ = {0.001, "kPa", ""};
-    return method_panels(data, *data.the_case.find_sensor("P1"), {"", data.window, true}, cut_);
+    return shared_panels(data, method_groups(data, runs_a_panel), *data.the_case.find_sensor("P1"),
+                         {"", data.window, true}, cut_);
   }
 
   std::vector<fs::path> runs_;
   Cut cut_;
 };
+
+/// What the author of another code looks for: the own curve, the experiment and the references in one picture.
+TEST_F(BothMethods, OtherCodesShareAPanelWithTheFinestRunOfEach) {
+  const fs::path other = fresh("methods_other");
+  synthetic::write_external_run(other, 2.0);
+  runs_.push_back(other);
+  add({.l0_m = 0.015});
+  const ReportData data = analyse(runs_);
+  const auto groups = beside_references(data, runs_a_panel);
+  ASSERT_EQ(groups.size(), 1U);
+  ASSERT_EQ(groups[0].runs.size(), 4U) << "MPS, two walls of WCSPH, and the other code";
+  EXPECT_EQ(groups[0].runs[1]->record.l0_m, 0.015) << groups[0].runs[1]->label;
+  EXPECT_FALSE(groups[0].runs[3]->record.own);
+  Cut cut;
+  const auto drawn = shared_panels(data, groups, *data.the_case.find_sensor("P1"), {"", data.window, true}, cut);
+  ASSERT_EQ(drawn.size(), 1U);
+  EXPECT_EQ(labels_of_runs(drawn[0]).size(), 4U);
+  runs_.erase(std::find(runs_.begin(), runs_.end(), other));
+  EXPECT_TRUE(beside_references(analyse(runs_), runs_a_panel).empty());
+}
 
 TEST_F(BothMethods, ShareAPanelOfOneParticleDistanceAndWallModel) {
   const auto drawn = panels(analyse(runs_));

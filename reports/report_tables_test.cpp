@@ -123,6 +123,26 @@ TEST(ReportTables, UnitsThatCannotBeRightAreDoubted) {
   EXPECT_TRUE(analyse({dir}).runs[0].problems.empty());
   std::ofstream(dir / "probes.csv") << "t_s,P1_Pa\n0,0\n400,5000\n6000,0\n";
   EXPECT_EQ(analyse({dir}).runs[0].problems.back(), "ends at 6000 s, the case at 6.0 s: are its times in s?");
+  synthetic::write_external_run(dir, 2.0);
+  test_files::put_in_manifest(dir, {{"l0_m", 20}});
+  EXPECT_EQ(analyse({dir}).runs[0].problems,
+            std::vector<std::string>{"l0_m is 20, more than the fluid is long: is it in m?"});
+}
+
+TEST(ReportTables, TheAirsPressureIsToldFromTheWaters) {
+  const fs::path dir = fresh("absolute");
+  synthetic::write_external_run(dir, 1.0);
+  std::ofstream out(dir / "probes.csv");
+  out << "t_s,P1_Pa\n";
+  for (int k = 0; k <= 6000; ++k) out << 0.001 * k << ',' << (k < 420 ? 101325 : 106325) << '\n';
+  out.close();
+  const ReportData data = analyse({dir});
+  ASSERT_FALSE(data.runs[0].problems.empty());
+  EXPECT_TRUE(data.runs[0].problems.back().starts_with("P1 reads 101325 Pa before the wave comes"))
+      << data.runs[0].problems.back();
+  const std::vector<std::string>& remarks = data.runs[0].primary("P1")->comparison.remarks;
+  ASSERT_FALSE(remarks.empty());
+  EXPECT_TRUE(remarks.front().ends_with("from the start")) << remarks.front();
 }
 
 TEST(ReportTables, EnergyAndCompressionOfTheFluid) {
@@ -200,6 +220,35 @@ TEST(ReportTables, ThreeResolutionsGiveAnOrderOrTheWordsThatThereIsNone) {
   run.scale = 1.3;  // finer is worse
   synthetic::write_run(dirs.back(), run);
   EXPECT_EQ(cell(resolution_table(analyse(dirs)), "P1 impulse", "observed_order").text, "not in the asymptotic range");
+}
+
+TEST(ReportTables, NoOrderWhereTheLatticeChangesTheGeometry) {
+  std::vector<fs::path> dirs;
+  for (const auto& [l0_m, depth_m] : {std::pair(0.04, 0.56), std::pair(0.02, 0.54), std::pair(0.01, 0.55)}) {
+    dirs.push_back(fresh("geometry_" + std::to_string(dirs.size())));
+    synthetic::write_run(dirs.back(), {.l0_m = l0_m, .scale = 1 + 100 * l0_m * l0_m});
+    test_files::put_in_manifest(
+        dirs.back(),
+        {{"fitted_lengths", {{{"name", "fluid[0].upper.z"}, {"nominal_m", 0.55}, {"fitted_m", depth_m}}}}});
+  }
+  const ReportData data = analyse(dirs);
+  const Table table = resolution_table(data);
+  EXPECT_EQ(cell(table, "P1 impulse", "observed_order").text, "none: geometries differ");
+  EXPECT_NE(table.notes.front().find("fluid[0] is 0.560, 0.540, 0.550 m high"), std::string::npos)
+      << table.notes.front();
+  EXPECT_EQ(cell(validation_uncertainty_table(data), "P1 impulse", "u_num").text, "missing");
+  for (const fs::path& dir : dirs) test_files::put_in_manifest(dir, {{"fitted_lengths", nlohmann::json::array()}});
+  EXPECT_TRUE(cell(resolution_table(analyse(dirs)), "P1 impulse", "observed_order").text.starts_with("order 2.0"));
+}
+
+TEST(ReportTables, TheFinestRunThatHasAValueStandsBesideItsUncertainty) {
+  std::vector<fs::path> dirs;
+  for (const double l0_m : {0.04, 0.02, 0.01}) {
+    dirs.push_back(fresh("uncertain_" + std::to_string(dirs.size())));
+    synthetic::write_run(dirs.back(), {.l0_m = l0_m, .t_end_s = l0_m < 0.015 ? 3.0 : 6.0});
+  }
+  const Table table = validation_uncertainty_table(analyse(dirs));
+  EXPECT_NE(cell(table, "P1 impulse [Pa s], R2", "error").text, "missing");
 }
 
 /// Half of the runs 20 % too high, half as much too low in the logarithm: no bias but that of the scatter itself.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "reports/figures.h"
 #include "reports/report.h"
 #include "reports/synthetic_run.h"
 #include "reports/tables.h"
@@ -95,6 +96,19 @@ TEST_F(UsersMeasurement, TellsWhichAlphaIsBestOnlyWhereTheStatedOneWasComputed) 
   EXPECT_EQ(verdict({made(0.02, 0.1, 1.05), made(0.02, 0.01, 1.3)}), "agrees");
   EXPECT_EQ(verdict({made(0.02, 0.1, 1.3), made(0.02, 0.01, 1.05)}), "does not agree");
   EXPECT_EQ(verdict({made(0.02, 0.01, 1.3), made(0.02, 0.001, 1.05)}), "missing") << "0.1 was not computed";
+}
+
+TEST_F(UsersMeasurement, WithoutItAnAlphaFigureOfDeviationsIsLeftOut) {
+  std::vector<fs::path> directories;
+  for (const double alpha : {0.1, 0.01}) {
+    directories.push_back("figure" + std::to_string(directories.size()));
+    synthetic::write_force_run(directories.back(), made(0.02, alpha, 1.0));
+  }
+  const ReportData data = analyse(directories);
+  EXPECT_TRUE(alpha_figures({data, fresh("force_alpha_figure")}).empty());
+  supply();
+  const ReportData measured = analyse(directories);
+  EXPECT_EQ(alpha_figures({measured, fresh("force_alpha_figure")}).size(), measured.headline_sensors().size());
 }
 
 // One recording says nothing of how it would repeat, however its bins were filled.

@@ -92,22 +92,64 @@ void note_doubtful_units(Problems& problems, const AnalysedRun& run, const Repor
   }
 }
 
+/// A gauge that reads before the water comes: the air's pressure is in it, or another datum.
+void note_doubtful_datum(Problems& problems, const AnalysedRun& run, const ReportData& data) {
+  constexpr double dry_s = 0.05;  // before the measured arrival
+  for (const SensorReading& reading : run.readings) {
+    const auto arrival_s = reading.comparison.arrival_s.measured;
+    const MeasuredSeries* measured = data.measured_series(reading.sensor);
+    if (reading.kind != SensorKind::pressure || !reading.primary || reading.warning_only || measured == nullptr ||
+        !arrival_s)
+      continue;
+    const Window dry{data.window_of(reading.sensor).begin_s, *arrival_s - dry_s};
+    const auto sum = dry.end_s > dry.begin_s ? impulse(reading.series, dry) : std::nullopt;
+    const auto top = peak(*measured, data.window_of(reading.sensor));
+    if (!sum || !top) continue;
+    const double mean = *sum / (dry.end_s - dry.begin_s);
+    const double own_top = *std::max_element(reading.series.value.begin(), reading.series.value.end());
+    if (mean > std::max(top->value, 0.5 * own_top))
+      problems.push_back(
+          fmt::format("{} reads {} {} before the wave comes, more than the measured peak: is the air's "
+                      "pressure in it (give an offset)?",
+                      reading.sensor, significant(mean, 6), reading.comparison.unit));
+  }
+}
+
+/// Millimetres under the name of metres.
+void note_doubtful_distance(Problems& problems, const RunRecord& record, const Case& c) {
+  const bool fits = std::any_of(c.fluid.begin(), c.fluid.end(), [&](const Box& fluid) {
+    const Vec3d size = fluid.upper - fluid.lower;
+    return record.l0_m <= std::max({size.x, size.y, size.z});
+  });
+  if (!fits)
+    problems.push_back(fmt::format("l0_m is {}, more than the fluid is long: is it in m?", shortest(record.l0_m)));
+}
+
 /// Peaks and running means of 10 ms need rows closer than that.
 void note_sampling(Problems& problems, const RunRecord& record, Window window) {
   constexpr double coarse_s = 0.0105;
   const std::vector<double>& times = record.probes.times_s();
   const Curve rows{times, times};
   if (first_gap(rows, window)) return;  // told already
-  std::vector<double> intervals;
-  for (std::size_t k = 1; k < times.size(); ++k)
-    if (times[k] > window.begin_s && times[k - 1] < window.end_s) intervals.push_back(times[k] - times[k - 1]);
-  if (intervals.size() < 2) return;
-  const auto median = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), median, intervals.end());
-  if (*median > coarse_s)
-    problems.push_back(
-        fmt::format("has a row every {} ms only: of peaks, running means of 10 ms, noise and arrivals it says little",
-                    significant(1000 * *median, 2)));
+  constexpr double much = 0.1;
+  double all_s = 0;
+  double coarse_rows_s = 0;
+  double longest_s = 0;
+  int intervals = 0;
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    if (times[k] <= window.begin_s || times[k - 1] >= window.end_s) continue;
+    const double interval_s = times[k] - times[k - 1];
+    ++intervals;
+    all_s += interval_s;
+    longest_s = std::max(longest_s, interval_s);
+    if (interval_s > coarse_s) coarse_rows_s += interval_s;
+  }
+  if (intervals < 2) return;
+  if (coarse_rows_s > much * all_s)
+    problems.push_back(fmt::format(
+        "has rows more than 10 ms apart over {} % of its time (up to {} ms): of peaks, running means of 10 ms, noise "
+        "and arrivals it says little",
+        significant(100 * coarse_rows_s / all_s, 2), significant(1000 * longest_s, 2)));
   else if (const auto gap = first_gap(rows, window, coarse_s))
     problems.push_back(fmt::format("has no row for {} ms from {} s on: a peak there is not seen",
                                    significant(1000 * (gap->end_s - gap->begin_s), 2), significant(gap->begin_s, 4)));
@@ -139,6 +181,8 @@ std::vector<std::string> run_problems(const AnalysedRun& run, const ReportData& 
   note_unread_columns(problems, run, data.the_case);
   note_nothing_primary(problems, run, data.the_case);
   note_doubtful_units(problems, run, data);
+  note_doubtful_datum(problems, run, data);
+  note_doubtful_distance(problems, run.record, data.the_case);
   note_lost(problems, run.record);
   return problems;
 }

@@ -19,6 +19,15 @@ void add_both_methods(ReportSection& section, const FigureMaker& maker, SensorKi
   append(section, pictures);
 }
 
+/// Where there are runs of other codes: what their authors look for comes first.
+void add_other_codes(ReportSection& section, const FigureMaker& maker, SensorKind kind) {
+  const auto pictures = other_code_figures(maker, kind);
+  if (pictures.empty()) return;
+  section.blocks.push_back(Paragraph{"**Other codes beside the finest run of each method here**:"});
+  append(section, pictures);
+  section.blocks.push_back(Paragraph{"**Each method and code by itself**:"});
+}
+
 ReportSection impulses_section(const FigureMaker& maker) {
   const ReportData& data = maker.data;
   ReportSection section{"impulses", "Pressure impulses", {}};
@@ -47,6 +56,7 @@ ReportSection pressures_section(const FigureMaker& maker) {
       "depends on the sampling. So the long views show a 10 ms running mean of the runs, the close views the raw "
       "readings. "
       "Curves are thinned for drawing, keeping the lowest and highest sample of each pixel column."));
+  add_other_codes(section, maker, SensorKind::pressure);
   append(section, series_figures(maker, SensorKind::pressure));
   add_both_methods(section, maker, SensorKind::pressure);
   section.blocks.push_back(Paragraph{"**The first impact**, raw:"});
@@ -74,6 +84,7 @@ ReportSection waves_section(const FigureMaker& maker) {
       hint("Two ways to read a height: `column` is the first gap counted from the bed upwards, as a wire probe in "
            "solid water "
            "sees it; `top` is the highest water on the line, spray included. They differ where the wave overturns."));
+  add_other_codes(section, maker, SensorKind::wave_height);
   append(section, series_figures(maker, SensorKind::wave_height));
   const auto spray = spray_figures(maker);
   if (!spray.empty()) section.blocks.push_back(Paragraph{"**The same probes with spray** (model `top`):"});
@@ -93,6 +104,7 @@ ReportSection force_section(const FigureMaker& maker) {
       "says how far to trust either. Black: the measured mean; grey: the band of the measured points. Long views show "
       "a 10 ms running "
       "mean of the runs, then the raw readings; close views show the first impact, raw."));
+  add_other_codes(section, maker, SensorKind::force);
   append(section, series_figures(maker, SensorKind::force));
   append(section, series_figures(maker, SensorKind::force, true));
   append(section, impact_figures(maker, SensorKind::force));
@@ -111,6 +123,7 @@ ReportSection velocity_section(const FigureMaker& maker) {
   section.blocks.push_back(hint(
       "The fluid's kernel mean of one component of the velocity at a point. It reads zero where too little fluid is "
       "near, before the water comes and where it runs too shallow."));
+  add_other_codes(section, maker, SensorKind::velocity);
   append(section, series_figures(maker, SensorKind::velocity));
   add_both_methods(section, maker, SensorKind::velocity);
   section.blocks.push_back(sensor_metrics_table(maker.data, SensorKind::velocity, true));

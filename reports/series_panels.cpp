@@ -139,9 +139,10 @@ std::vector<PlotPanel> sensor_panels(const ReportData& data, const CaseSensor& s
   return panels;
 }
 
-std::vector<PlotPanel> method_panels(const ReportData& data, const CaseSensor& sensor, const View& view, Cut& cut) {
+std::vector<PlotPanel> shared_panels(const ReportData& data, const std::vector<RunGroup>& groups,
+                                     const CaseSensor& sensor, const View& view, Cut& cut) {
   std::vector<PlotPanel> panels;
-  for (const RunGroup& group : method_groups(data, runs_a_panel)) {
+  for (const RunGroup& group : groups) {
     PlotPanel panel = panel_of(data, sensor, view.window);
     panel.title = fmt::format("{}: {}", sensor.name, group.title);
     Cut with_these = cut;
@@ -150,8 +151,9 @@ std::vector<PlotPanel> method_panels(const ReportData& data, const CaseSensor& s
     for (const AnalysedRun* run : group.runs) {
       const SensorReading* reading = add_run(panel, *run, sensor, view, style++, with_these);
       if (reading == nullptr) continue;
-      panel.curves.back().label = run->method_label + ", " + reading->model_name();
-      methods.insert(run->record.solver);
+      panel.curves.back().label =
+          fmt::format("{}, {}", run->record.own ? run->method_label : run->label, reading->model_name());
+      methods.insert(run->group);
     }
     if (methods.size() < 2) continue;  // a run may lack this sensor
     cut = with_these;

@@ -30,9 +30,10 @@ struct View {
 /// Panels of one sensor, one a group of runs; empty when no run has the reading. `cut` collects what leaves the panel.
 std::vector<PlotPanel> sensor_panels(const ReportData& data, const CaseSensor& sensor, const View& view, Cut& cut);
 
-/// Panels of one sensor that hold both methods, one a group of method_groups(), each curve with the model that read it;
-/// empty when no two runs of the two methods can share axes.
-std::vector<PlotPanel> method_panels(const ReportData& data, const CaseSensor& sensor, const View& view, Cut& cut);
+/// Panels of one sensor that hold several methods or codes, one a group, each curve with the model that read it; groups
+/// in which less than two of them have this sensor are left out.
+std::vector<PlotPanel> shared_panels(const ReportData& data, const std::vector<RunGroup>& groups,
+                                     const CaseSensor& sensor, const View& view, Cut& cut);
 
 /// The measured mean and band over a window, where there are any.
 void add_experiment(PlotPanel& panel, const ReportData& data, const CaseSensor& sensor, Window window);

@@ -87,6 +87,10 @@ Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_mod
       }
     }
   }
+  if (!sensors.empty())
+    table.notes.push_back(
+        "The experiment's noise is that of the digest's bin means, so only of what is slower than a bin: less than the "
+        "recording has, and not to be held against the runs'.");
   return table;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/fitted_geometry.h"
 #include "reports/quantity.h"
 #include "reports/studies.h"
 #include "reports/tables.h"
@@ -81,8 +82,9 @@ Table alpha_table(const ReportData& data) {
 
 namespace {
 
-TableCell convergence_cell(const std::vector<ResolutionPoint>& points) {
+TableCell convergence_cell(const std::vector<ResolutionPoint>& points, bool same_geometry) {
   if (points.size() < 3) return not_applicable("needs three resolutions");
+  if (!same_geometry) return word("none: geometries differ");
   std::vector<ResolvedValue> results;
   for (const ResolutionPoint& point : points) results.push_back({point.l0_m, point.value});
   const GridConvergence c = grid_convergence(std::move(results));
@@ -112,6 +114,11 @@ Table resolution_table(const ReportData& data) {
   table.columns.push_back({"Observed order of the value", "observed_order", false});
   for (const ResolutionSeries& series : all_series) {
     table.add_group(series.title);
+    const std::string geometry = differing_geometry(data, series);
+    if (!geometry.empty())
+      table.notes.push_back(fmt::format(
+          "{}: no order, since the lattice changes the geometry as well from one particle distance to the next: {}.",
+          series.title, geometry));
     for (const ResolutionQuantity& quantity : resolution_quantities(data, series)) {
       std::vector<TableCell> cells = {word(quantity.name)};
       for (double l0 : distances) {
@@ -121,10 +128,13 @@ Table resolution_table(const ReportData& data) {
                         : quantity.shows_value         ? number(found->value, quantity.decimals)
                                                        : signed_number(found->error, quantity.decimals));
       }
-      cells.push_back(convergence_cell(quantity.points));
+      cells.push_back(convergence_cell(quantity.points, geometry.empty()));
       table.add(std::move(cells));
     }
   }
+  table.notes.push_back(
+      "Index: safety factor 1.25 where the observed order lies within a tenth of 2, else 3, with an order of 2 at "
+      "most.");
   for (const ResolutionSeries& series : all_series)
     for (const AnalysedRun* run : series.left_out)
       table.notes.push_back(

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "reports/replace_characters.h"
+
 namespace sluice {
 
 namespace {
@@ -23,29 +25,6 @@ std::string superscript(int exponent) {
   static const std::array<const char*, 10> digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string out = exponent < 0 ? "⁻" : "";
   for (char c : std::to_string(std::abs(exponent))) out += digits[static_cast<std::size_t>(c - '0')];
-  return out;
-}
-
-/// The bytes of the UTF-8 character that starts at `at`.
-std::string_view character(std::string_view text, std::size_t at) {
-  const auto lead = static_cast<unsigned char>(text[at]);
-  const std::size_t length = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
-  return text.substr(at, length);
-}
-
-using Replacement = std::pair<std::string_view, std::string_view>;
-
-template <std::size_t N>
-std::string replace_characters(std::string_view text, const std::array<Replacement, N>& replacements) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::string_view c = character(text, i);
-    std::string_view with = c;
-    for (const auto& [from, to] : replacements)
-      if (from == c) with = to;
-    out += with;
-    i += c.size();
-  }
   return out;
 }
 
@@ -126,74 +105,6 @@ std::string escape_markdown_cell(std::string_view text) {
   static constexpr std::array<Replacement, 7> map = {
       {{"|", "\\|"}, {"\n", " "}, {"*", "\\*"}, {"_", "\\_"}, {"<", "&lt;"}, {">", "&gt;"}, {"\u202f", " "}}};
   return replace_characters(text, map);
-}
-
-namespace {
-
-constexpr std::array<Replacement, 59> latex_characters = {{{"\\", "\\textbackslash{}"},
-                                                           {"{", "\\{"},
-                                                           {"}", "\\}"},
-                                                           {"$", "\\$"},
-                                                           {"&", "\\&"},
-                                                           {"#", "\\#"},
-                                                           {"%", "\\%"},
-                                                           {"_", "\\_"},
-                                                           {"~", "\\textasciitilde{}"},
-                                                           {"^", "\\textasciicircum{}"},
-                                                           {"<", "$<$"},
-                                                           {">", "$>$"},
-                                                           {"\n", " "},
-                                                           {"|", "$|$"},
-                                                           {"−", "$-$"},
-                                                           {"–", "--"},
-                                                           {"—", "---"},
-                                                           {"×", "$\\times$"},
-                                                           {"·", "$\\cdot$"},
-                                                           {"±", "$\\pm$"},
-                                                           {"≤", "$\\le$"},
-                                                           {"≥", "$\\ge$"},
-                                                           {"≈", "$\\approx$"},
-                                                           {"→", "$\\to$"},
-                                                           {"α", "$\\alpha$"},
-                                                           {"γ", "$\\gamma$"},
-                                                           {"δ", "$\\delta$"},
-                                                           {"Δ", "$\\Delta$"},
-                                                           {"ν", "$\\nu$"},
-                                                           {"ρ", "$\\rho$"},
-                                                           {"µ", "$\\mu$"},
-                                                           {"°", "$^\\circ$"},
-                                                           {"⁻", "$^{-}$"},
-                                                           {"⁰", "$^{0}$"},
-                                                           {"¹", "$^{1}$"},
-                                                           {"²", "$^{2}$"},
-                                                           {"³", "$^{3}$"},
-                                                           {"⁴", "$^{4}$"},
-                                                           {"⁵", "$^{5}$"},
-                                                           {"⁶", "$^{6}$"},
-                                                           {"⁷", "$^{7}$"},
-                                                           {"⁸", "$^{8}$"},
-                                                           {"⁹", "$^{9}$"},
-                                                           {"₀", "$_{0}$"},
-                                                           {"₁", "$_{1}$"},
-                                                           {"₂", "$_{2}$"},
-                                                           {"₃", "$_{3}$"},
-                                                           {"\u202f", "\\,"},
-                                                           {"\u00a0", "~"},
-                                                           {"…", "\\ldots{}"},
-                                                           {"“", "``"},
-                                                           {"”", "''"},
-                                                           {"‘", "`"},
-                                                           {"’", "'"},
-                                                           {"σ", "$\\sigma$"},
-                                                           {"π", "$\\pi$"},
-                                                           {"τ", "$\\tau$"},
-                                                           {"∞", "$\\infty$"},
-                                                           {"\"", "''"}}};
-
-}  // namespace
-
-std::string escape_latex(std::string_view text) {
-  return replace_characters(text, latex_characters);
 }
 
 std::string escape_csv(std::string_view text) {

@@ -39,6 +39,8 @@ TEST(Text, EscapesForEachFormat) {
   EXPECT_EQ(escape_latex("50 % of R_1 & {α}"), "50 \\% of R\\_1 \\& \\{$\\alpha$\\}");
   EXPECT_EQ(escape_latex("a\\b^c~d"), "a\\textbackslash{}b\\textasciicircum{}c\\textasciitilde{}d");
   EXPECT_EQ(escape_latex("|x|"), "$|$x$|$") << "a bare bar is a dash in LaTeX's oldest fonts";
+  EXPECT_EQ(escape_latex("\u03b4\u03bb-SPH Müller"), "$\\delta$$\\lambda$-SPH Müller");
+  EXPECT_EQ(escape_latex("流"), "[U+6D41]") << "LaTeX would stop at it";
   EXPECT_EQ(escape_csv("plain"), "plain");
   EXPECT_EQ(escape_csv("a,\"b\""), "\"a,\"\"b\"\"\"");
   EXPECT_EQ(escape_markdown_cell("a|b*c_d"), "a\\|b\\*c\\_d");

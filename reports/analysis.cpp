@@ -240,6 +240,10 @@ std::string parameters_text(const std::map<std::string, double>& parameters) {
   return text;
 }
 
+bool is_whole(const ReportData& data, const RunRecord& run) {
+  return run.own && run.status() == "finished" && run.number("t_end_s").value_or(0) >= data.window.end_s * (1 - 1e-9);
+}
+
 std::optional<double> processor_time_s(const AnalysedRun& run) {
   if (const auto cpu_s = run.record.number("cpu_time_s"); cpu_s && *cpu_s > 0) return cpu_s;
   const auto wall_s = run.record.number("wall_time_s");

@@ -83,6 +83,9 @@ std::map<std::string, double> changed_parameters(const RunRecord& run, const Cas
 /// ", delta = 0.02" for labels and titles; empty for none.
 std::string parameters_text(const std::map<std::string, double>& parameters);
 
+/// Whether a run of this program has ended, at the end of the case's window or later.
+bool is_whole(const ReportData& data, const RunRecord& run);
+
 /// Mean of |deviation| of the impulses over the headline sensors; missing when one of them is. `model` empty: primary.
 std::optional<double> mean_impulse_error(const ReportData& data, const AnalysedRun& run, const std::string& model = "");
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 
 #include "reports/studies.h"
@@ -41,21 +42,15 @@ std::vector<WallsScope> scopes_of(const std::vector<std::string>& walls) {
   return scopes;
 }
 
-bool is_whole(const AnalysedRun& run, const std::string& solver) {
-  return run.record.own && run.record.status() == "finished" && run.record.solver == solver;
-}
-
-bool reaches_the_end(const ReportData& data, double t_end_s) {
-  return t_end_s >= data.window.end_s * (1 - 1e-9);
-}
-
-/// Runs that reach the window's end come before others, then the finer ones.
-bool tells_more(const ReportData& data, const BothMethods& a, const BothMethods& b) {
-  if (b.mps.empty()) return true;
-  const auto end_s = [](const BothMethods& both) { return both.mps.front()->record.number("t_end_s").value_or(0); };
-  const bool whole_a = reaches_the_end(data, end_s(a));
-  const bool whole_b = reaches_the_end(data, end_s(b));
-  return whole_a != whole_b ? whole_a : a.l0_m < b.l0_m;
+/// Finished runs of a method; if any reach the window's end, those.
+std::vector<const AnalysedRun*> ended_runs(const ReportData& data, const std::string& solver, const WallsScope& scope) {
+  std::vector<const AnalysedRun*> runs;
+  for (const AnalysedRun& run : data.runs)
+    if (run.record.own && run.record.status() == "finished" && run.record.solver == solver && scope.has(run))
+      runs.push_back(&run);
+  const auto whole = [&](const AnalysedRun* run) { return is_whole(data, run->record); };
+  if (std::any_of(runs.begin(), runs.end(), whole)) std::erase_if(runs, std::not_fn(whole));
+  return runs;
 }
 
 }  // namespace
@@ -71,29 +66,32 @@ Verdict all_of(Verdict a, Verdict b) {
   return Verdict::agrees;
 }
 
-std::map<std::string, double> judged_parameters(const ReportData& data, const std::string& solver) {
+std::map<std::string, double> judged_parameters(const ReportData& data, const std::string& solver,
+                                                const WallsScope& scope) {
   std::map<std::map<std::string, double>, int> runs;
-  for (const AnalysedRun& run : data.runs)
-    if (is_whole(run, solver)) ++runs[changed_parameters(run.record, data.the_case)];
+  for (const AnalysedRun* run : ended_runs(data, solver, scope)) ++runs[changed_parameters(run->record, data.the_case)];
   if (runs.empty() || runs.contains({})) return {};
   return std::max_element(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
 }
 
 void note_judged_parameters(Table& table, const ReportData& data) {
-  for (const auto& [solver, name] : {std::pair("mps", "MPS"), std::pair("wcsph", "WCSPH")})
-    if (const std::string text = parameters_text(judged_parameters(data, solver)); !text.empty())
-      table.notes.push_back(fmt::format("{} is judged by its runs with {}: none has the case's parameters throughout.",
-                                        name, text.substr(2)));
+  const auto note = [&](const std::string& solver, const std::string& name, const WallsScope& scope) {
+    if (const std::string text = parameters_text(judged_parameters(data, solver, scope)); !text.empty())
+      table.notes.push_back(
+          fmt::format("Beside the other method, {} is judged by its runs with {}: none has the case's parameters.",
+                      scope.named(name), text.substr(2)));
+  };
+  note("mps", "MPS", {});
+  for (const WallsScope& scope : walls_scopes(data)) note("wcsph", "WCSPH", scope);
 }
 
 std::vector<const AnalysedRun*> judged_runs(const ReportData& data, const std::string& solver,
                                             const WallsScope& scope) {
-  const auto parameters = judged_parameters(data, solver);
-  std::vector<const AnalysedRun*> runs;
-  for (const AnalysedRun& run : data.runs)
-    if (is_whole(run, solver) && scope.has(run) && changed_parameters(run.record, data.the_case) == parameters)
-      runs.push_back(&run);
+  const auto parameters = judged_parameters(data, solver, scope);
+  std::vector<const AnalysedRun*> runs = ended_runs(data, solver, scope);
+  std::erase_if(runs,
+                [&](const AnalysedRun* run) { return changed_parameters(run->record, data.the_case) != parameters; });
   return runs;
 }
 
@@ -132,7 +130,7 @@ BothMethods finest_of_both(const ReportData& data, const WallsScope& scope) {
     const auto alike = [&](const AnalysedRun* other) { return same_flow(data, run->record, other->record); };
     std::copy_if(mps.begin(), mps.end(), std::back_inserter(both.mps), alike);
     std::copy_if(wcsph.begin(), wcsph.end(), std::back_inserter(both.wcsph), alike);
-    if (!both.wcsph.empty() && tells_more(data, both, finest)) finest = both;
+    if (!both.wcsph.empty() && (finest.mps.empty() || both.l0_m < finest.l0_m)) finest = both;
   }
   return finest;
 }

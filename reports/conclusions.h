@@ -51,16 +51,18 @@ std::vector<WallsScope> walls_scopes(const ReportData& data);
 /// The same with those of other codes' runs that differ in alpha alone.
 std::vector<WallsScope> alpha_scopes(const ReportData& data);
 
-/// By which runs a method of this program is judged: whole ones with the case's parameters, or where there are none the
-/// largest set of runs that are alike in what they have otherwise.
-std::map<std::string, double> judged_parameters(const ReportData& data, const std::string& solver);
+/// What the runs have set otherwise by which a method of this program is judged. These are finished runs, whole ones if
+/// there are any, with the case's parameters or, where there are none, the largest set that is alike in what it
+/// changes.
+std::map<std::string, double> judged_parameters(const ReportData& data, const std::string& solver,
+                                                const WallsScope& scope);
 /// A note on every method that is judged by other parameters than the case's.
 void note_judged_parameters(Table& table, const ReportData& data);
 /// The runs of a method by which it is judged.
 std::vector<const AnalysedRun*> judged_runs(const ReportData& data, const std::string& solver,
                                             const WallsScope& scope = {});
 
-/// MPS and WCSPH runs of the finest particle distance that has both, of those that reach the window's end if any do.
+/// Judged runs of MPS and WCSPH at the finest particle distance that has both.
 struct BothMethods {
   std::vector<const AnalysedRun*> mps;
   std::vector<const AnalysedRun*> wcsph;
@@ -90,14 +92,14 @@ struct ShownSensors {
 };
 ShownSensors shown_sensors(const ReportData& data, SensorKind kind);
 
-/// Mean of a quantity over some sensors' primary readings; missing when one of them is.
+/// Mean of a quantity over some sensors' primary readings, given as SensorReading; missing when one of them is.
 template <class Measure>
 std::optional<double> mean_over(const std::vector<std::string>& sensors, const AnalysedRun& run, Measure measure) {
   if (sensors.empty()) return std::nullopt;
   double sum = 0;
   for (const std::string& sensor : sensors) {
     const SensorReading* reading = run.primary(sensor);
-    const std::optional<double> value = reading == nullptr ? std::nullopt : measure(reading->comparison);
+    const std::optional<double> value = reading == nullptr ? std::nullopt : measure(*reading);
     if (!value) return std::nullopt;
     sum += *value;
   }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -22,13 +22,13 @@ struct Side {
   double length_m = 0;
 };
 
-/// By the names that the manifest gives them: "fluid[0].lower.x".
-using FittedLengths = std::map<std::string, double>;
-
-void add_sides(std::vector<Side>& sides, const std::string& name, const Box& box, const FittedLengths& fitted) {
+void add_sides(std::vector<Side>& sides, const std::string& name, const Box& box,
+               const std::vector<FittedLength>& fitted) {
   const auto at = [&](const char* end, char axis, double nominal_m) {
-    const auto found = fitted.find(fmt::format("{}.{}.{}", name, end, axis));
-    return found == fitted.end() ? nominal_m : found->second;
+    const std::string full = fmt::format("{}.{}.{}", name, end, axis);
+    const auto found =
+        std::find_if(fitted.begin(), fitted.end(), [&](const auto& length) { return length.name == full; });
+    return found == fitted.end() ? nominal_m : found->fitted_m;
   };
   const auto add = [&](char axis, double lower_m, double upper_m) {
     sides.push_back({name, axis, at("upper", axis, upper_m) - at("lower", axis, lower_m)});
@@ -42,19 +42,31 @@ void add_sides(std::vector<Side>& sides, const std::string& name, const Box& box
 /// say what it fitted.
 std::vector<Side> fitted_sides(const Case& c, const RunRecord& run) {
   std::vector<Side> sides;
-  const auto lengths = run.manifest.find("fitted_lengths");
-  if (lengths == run.manifest.end() || !lengths->is_array()) return sides;
-  FittedLengths fitted;
-  for (const auto& length : *lengths)
-    if (length.contains("name") && length.contains("fitted_m")) fitted[length["name"]] = length["fitted_m"];
-  for (std::size_t k = 0; k < c.fluid.size(); ++k) add_sides(sides, fmt::format("fluid[{}]", k), c.fluid[k], fitted);
+  const auto fitted = fitted_lengths(run);
+  if (!fitted) return sides;
+  for (std::size_t k = 0; k < c.fluid.size(); ++k) add_sides(sides, fmt::format("fluid[{}]", k), c.fluid[k], *fitted);
   const std::vector<Obstacle> obstacles = placed_obstacles(c, run);
   for (std::size_t k = 0; k < obstacles.size(); ++k)
-    if (!obstacles[k].thin) add_sides(sides, fmt::format("obstacle[{}]", k), obstacles[k].box, fitted);
+    if (!obstacles[k].thin) add_sides(sides, called(obstacles[k], k), obstacles[k].box, *fitted);
   return sides;
 }
 
 }  // namespace
+
+std::optional<std::vector<FittedLength>> fitted_lengths(const RunRecord& run) {
+  const auto found = run.manifest.find("fitted_lengths");
+  if (found == run.manifest.end() || !found->is_array()) return std::nullopt;
+  std::vector<FittedLength> lengths;
+  for (const auto& length : *found) {
+    if (!length.is_object()) continue;
+    const auto is = [&](const char* key, auto test) { return length.contains(key) && test(length[key]); };
+    const auto is_number = [](const auto& value) { return value.is_number(); };
+    if (is("name", [](const auto& value) { return value.is_string(); }) && is("nominal_m", is_number) &&
+        is("fitted_m", is_number))
+      lengths.push_back({length["name"], length["nominal_m"], length["fitted_m"]});
+  }
+  return lengths;
+}
 
 std::string differing_geometry(const ReportData& data, const ResolutionSeries& series) {
   std::vector<std::vector<Side>> runs;

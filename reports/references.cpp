@@ -1,5 +1,9 @@
 // Which of our runs another code's are drawn beside.
 #include <algorithm>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "reports/studies.h"
 
@@ -7,11 +11,16 @@ namespace sluice {
 
 namespace {
 
-/// The finest finished run of each solver and walls, with the case's parameters where there is such a one.
+/// Of each solver and walls the run that stands for it: whole, with the case's parameters and alpha, the finest.
 std::vector<const AnalysedRun*> references(const ReportData& data) {
   std::vector<const AnalysedRun*> found;
   const auto rank = [&](const AnalysedRun& run) {
-    return std::pair(!changed_parameters(run.record, data.the_case).empty(), run.record.l0_m);
+    const SolverOption* solver = data.the_case.find_solver(run.record.solver);
+    const auto alpha = run.record.alpha();
+    const bool other_alpha =
+        alpha && solver != nullptr && solver->parameters.contains("alpha") && *alpha != solver->parameters.at("alpha");
+    return std::tuple(!is_whole(data, run.record), !changed_parameters(run.record, data.the_case).empty(), other_alpha,
+                      run.record.l0_m);
   };
   for (const AnalysedRun& run : data.runs) {
     if (!run.record.own || run.record.status() != "finished") continue;
@@ -36,10 +45,11 @@ std::vector<RunGroup> beside_references(const ReportData& data, std::size_t limi
   ours.resize(std::min(ours.size(), limit - 1));
   std::vector<RunGroup> groups;
   const std::size_t room = limit - ours.size();
-  for (std::size_t k = 0; k < others.size(); k += room) {
-    RunGroup group{"other codes and the finest run of each method", ours};
-    const auto from = others.begin() + static_cast<std::ptrdiff_t>(k);
-    group.runs.insert(group.runs.end(), from, from + static_cast<std::ptrdiff_t>(std::min(room, others.size() - k)));
+  const std::size_t count = (others.size() + room - 1) / room;
+  for (std::size_t g = 0; g < count; ++g) {  // of nearly equal size: one alone would have nothing beside it
+    RunGroup group{ours.empty() ? "other codes" : "other codes and the finest run of each method", ours};
+    for (std::size_t k = others.size() * g / count; k < others.size() * (g + 1) / count; ++k)
+      group.runs.push_back(others[k]);
     groups.push_back(std::move(group));
   }
   return groups;

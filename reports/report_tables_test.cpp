@@ -1,6 +1,7 @@
 // Tables of cases with pressures, on runs whose errors are known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -237,7 +238,8 @@ TEST(ReportTables, NoOrderWhereTheLatticeChangesTheGeometry) {
   EXPECT_NE(table.notes.front().find("fluid[0] is 0.560, 0.540, 0.550 m high"), std::string::npos)
       << table.notes.front();
   EXPECT_EQ(cell(validation_uncertainty_table(data), "P1 impulse", "u_num").text, "missing");
-  for (const fs::path& dir : dirs) test_files::put_in_manifest(dir, {{"fitted_lengths", nlohmann::json::array()}});
+  for (const fs::path& dir : dirs)
+    test_files::put_in_manifest(dir, {{"fitted_lengths", {1, {{"name", 2}}, {{"name", "x"}, {"fitted_m", nullptr}}}}});
   EXPECT_TRUE(cell(resolution_table(analyse(dirs)), "P1 impulse", "observed_order").text.starts_with("order 2.0"));
 }
 

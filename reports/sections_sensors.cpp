@@ -23,7 +23,8 @@ void add_both_methods(ReportSection& section, const FigureMaker& maker, SensorKi
 void add_other_codes(ReportSection& section, const FigureMaker& maker, SensorKind kind) {
   const auto pictures = other_code_figures(maker, kind);
   if (pictures.empty()) return;
-  section.blocks.push_back(Paragraph{"**Other codes beside the finest run of each method here**:"});
+  section.blocks.push_back(
+      Paragraph{"**Other codes on one axis**, with the finest run of each method here where there is one:"});
   append(section, pictures);
   section.blocks.push_back(Paragraph{"**Each method and code by itself**:"});
 }

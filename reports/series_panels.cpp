@@ -145,6 +145,8 @@ std::vector<PlotPanel> shared_panels(const ReportData& data, const std::vector<R
   for (const RunGroup& group : groups) {
     PlotPanel panel = panel_of(data, sensor, view.window);
     panel.title = fmt::format("{}: {}", sensor.name, group.title);
+    const bool all_ours =
+        std::all_of(group.runs.begin(), group.runs.end(), [](const AnalysedRun* run) { return run->record.own; });
     Cut with_these = cut;
     std::set<std::string> methods;
     int style = 0;
@@ -152,7 +154,7 @@ std::vector<PlotPanel> shared_panels(const ReportData& data, const std::vector<R
       const SensorReading* reading = add_run(panel, *run, sensor, view, style++, with_these);
       if (reading == nullptr) continue;
       panel.curves.back().label =
-          fmt::format("{}, {}", run->record.own ? run->method_label : run->label, reading->model_name());
+          fmt::format("{}, {}", all_ours ? run->method_label : run->label, reading->model_name());
       methods.insert(run->group);
     }
     if (methods.size() < 2) continue;  // a run may lack this sensor

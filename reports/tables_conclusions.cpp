@@ -149,8 +149,9 @@ Table conclusions_table(const ReportData& data) {
       "Where both methods are compared, at the finest particle distance that has both (of runs that reach the window's "
       "end, if any do). Costs: processor time per simulated second; they agree within a tenth of what the paper prints "
       "for that particle distance or, where it prints none, for its finest. WCSPH takes many more steps where it takes "
-      "three quarters of what is printed, or more. Of errors and oscillations less than a tenth tells no difference: "
-      "runs that differ in rounding alone scatter by some per cent.");
+      "three quarters of what is printed, or more. Of errors and oscillations less than a tenth tells no difference, "
+      "since runs that differ in rounding alone scatter by some per cent, nor do errors on both sides of an alpha that "
+      "overlap.");
   conclusions::note_judged_parameters(table, data);
   if (std::any_of(data.runs.begin(), data.runs.end(), [](const AnalysedRun& run) { return !run.record.own; }))
     table.notes.push_back(

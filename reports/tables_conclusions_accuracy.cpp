@@ -62,23 +62,15 @@ Evidence judge_least(const ReportData& data, const WallsScope& scope, Measure me
   return {words(LeastOfBoth{*mps, *wcsph, *mps_run, *wcsph_run}), smaller(*mps, *wcsph)};
 }
 
-/// Mean over the sensors; missing when one of them is.
-std::optional<double> noise_after_impact(const ReportData& data, const std::vector<std::string>& sensors,
-                                         const AnalysedRun& run) {
+/// Noise of a pressure from after the impact, whose one spike would hide the rest, to where the paper's text sees
+/// oscillations; over the whole window where the wave comes later than that.
+std::optional<double> noise_after_impact(const ReportData& data, const SensorReading& reading) {
   constexpr double impact_s = 0.1;
   constexpr double end_s = 1.5;
-  double sum = 0;
-  for (const std::string& sensor : sensors) {
-    const SensorReading* reading = run.primary(sensor);
-    if (reading == nullptr) return std::nullopt;
-    const Window whole = data.window_of(sensor);
-    const auto arrival_s = reading->comparison.arrival_s.measured;
-    const Window window{arrival_s ? *arrival_s + impact_s : whole.begin_s, std::min(end_s, whole.end_s)};
-    const auto value = noise(reading->series, window);
-    if (!value) return std::nullopt;
-    sum += *value;
-  }
-  return sum / static_cast<double>(sensors.size());
+  const Window whole = data.window_of(reading.sensor);
+  const auto arrival_s = reading.comparison.arrival_s.measured;
+  const Window after{arrival_s.value_or(whole.begin_s) + impact_s, std::min(end_s, whole.end_s)};
+  return noise(reading.series, after.begin_s < after.end_s ? after : whole);
 }
 
 }  // namespace
@@ -111,7 +103,9 @@ void add_sign(Table& table, const ReportData& data) {
 void add_pressure_oscillations(Table& table, const ReportData& data) {
   const ShownSensors shown = shown_sensors(data, SensorKind::pressure);
   if (shown.names.empty()) return;
-  const auto noise_of = [&](const AnalysedRun& run) { return noise_after_impact(data, shown.names, run); };
+  const auto noise_of = [&](const AnalysedRun& run) {
+    return mean_over(shown.names, run, [&](const SensorReading& r) { return noise_after_impact(data, r); });
+  };
   for (const WallsScope& scope : walls_scopes(data)) {
     const Evidence ours = judge_least(data, scope, noise_of, [](const LeastOfBoth& l) {
       return fmt::format("noise MPS {} Pa ({}), quietest WCSPH {} Pa ({})", fixed(l.mps, 0), l.mps_run.key,

@@ -126,8 +126,10 @@ Evidence judge_oscillations(const ReportData& data, const WallsScope& scope, con
   Evidence ours{trend.words.empty() ? "" : "noise " + trend.words, Verdict::agrees};
   for (const auto& series : trend.series) {
     const auto points = means(series);
+    Verdict grows = points.size() < 2 ? Verdict::not_told : smaller(points.back().second, points.front().second);
     for (std::size_t k = 1; k < points.size(); ++k)
-      if (points[k].second >= points[k - 1].second) ours.verdict = Verdict::does_not_agree;
+      if (smaller(points[k - 1].second, points[k].second) == Verdict::agrees) grows = Verdict::does_not_agree;
+    ours.verdict = all_of(ours.verdict, grows);
   }
   return ours;
 }
@@ -153,7 +155,7 @@ void add_wave_heights(Table& table, const ReportData& data) {
     return data.measured_series(sensor) == nullptr;
   });
   const auto error = [&](const AnalysedRun& run) {
-    return mean_over(shown.names, run, [](const Comparison& c) { return c.rmse_over_range; });
+    return mean_over(shown.names, run, [](const SensorReading& r) { return r.comparison.rmse_over_range; });
   };
   for (const WallsScope& scope : alpha_scopes(data)) {
     Evidence ours = judge_sides(data, scope, limit, error);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "reports/fitted_geometry.h"
 #include "reports/tables.h"
 #include "reports/text.h"
 
@@ -299,13 +300,13 @@ Table fitted_lengths_table(const ReportData& data) {
     auto deviation = r.number("fluid_volume.deviation");
     std::optional<double> largest;
     std::string name;
-    if (r.manifest.contains("fitted_lengths") && r.manifest.at("fitted_lengths").is_array()) {
+    if (const auto lengths = fitted_lengths(r)) {
       largest = 0;
-      for (const auto& length : r.manifest.at("fitted_lengths")) {
-        const double change = 1000 * (length.value("fitted_m", 0.0) - length.value("nominal_m", 0.0));
+      for (const FittedLength& length : *lengths) {
+        const double change = 1000 * (length.fitted_m - length.nominal_m);
         if (std::abs(change) <= std::abs(*largest)) continue;
         largest = change;
-        name = length.value("name", "");
+        name = length.name;
       }
     }
     if (deviation) *deviation *= 100;

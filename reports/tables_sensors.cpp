@@ -1,6 +1,8 @@
 // Tables of every metric at every sensor.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/quantity.h"
 #include "reports/tables.h"
 #include "reports/text.h"
@@ -87,7 +89,8 @@ Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_mod
       }
     }
   }
-  if (!sensors.empty())
+  if (std::any_of(sensors.begin(), sensors.end(),
+                  [&](const std::string& sensor) { return data.measured_series(sensor) != nullptr; }))
     table.notes.push_back(
         "The experiment's noise is that of the digest's bin means, so only of what is slower than a bin: less than the "
         "recording has, and not to be held against the runs'.");

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include "reports/fitted_geometry.h"
 #include "reports/quantity.h"
@@ -94,6 +96,14 @@ TableCell convergence_cell(const std::vector<ResolutionPoint>& points, bool same
   return word(text);
 }
 
+/// Coarsest first.
+std::set<double, std::greater<>> particle_distances(const std::vector<ResolutionSeries>& all_series) {
+  std::set<double, std::greater<>> distances;
+  for (const ResolutionSeries& series : all_series)
+    for (const AnalysedRun* run : series.runs) distances.insert(run->record.l0_m);
+  return distances;
+}
+
 }  // namespace
 
 Table resolution_table(const ReportData& data) {
@@ -103,19 +113,14 @@ Table resolution_table(const ReportData& data) {
                                               : "Errors against the particle distance, primary readings";
   table.columns = {{"Quantity", "quantity", false}};
   const std::vector<ResolutionSeries> all_series = resolution_series(data);
-  std::vector<double> distances;
-  for (const ResolutionSeries& series : all_series)
-    for (const AnalysedRun* run : series.runs)
-      if (std::find(distances.begin(), distances.end(), run->record.l0_m) == distances.end())
-        distances.push_back(run->record.l0_m);
-  std::sort(distances.rbegin(), distances.rend());
+  const std::set<double, std::greater<>> distances = particle_distances(all_series);
   for (double l0 : distances)
     table.columns.push_back({fmt::format("l0 = {:g} mm", 1000 * l0), fmt::format("l0_{:g}_mm", 1000 * l0)});
   table.columns.push_back({"Observed order of the value", "observed_order", false});
   for (const ResolutionSeries& series : all_series) {
     table.add_group(series.title);
     const std::string geometry = differing_geometry(data, series);
-    if (!geometry.empty())
+    if (!geometry.empty() && series.runs.size() > 2)
       table.notes.push_back(fmt::format(
           "{}: no order, since the lattice changes the geometry as well from one particle distance to the next: {}.",
           series.title, geometry));
@@ -133,7 +138,7 @@ Table resolution_table(const ReportData& data) {
     }
   }
   table.notes.push_back(
-      "Index: safety factor 1.25 where the observed order lies within a tenth of 2, else 3, with an order of 2 at "
+      "Index: safety factor 1.25 where the observed order lies between 1.8 and 2.2, else 3, with an order of 2 at "
       "most.");
   for (const ResolutionSeries& series : all_series)
     for (const AnalysedRun* run : series.left_out)

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstdint>
 
 #include "reports/replace_characters.h"
 #include "reports/text.h"

@@ -204,13 +204,16 @@ void fit(Scene& scene, const SceneLattice& lattice) {
   for (std::size_t k = 0; k < d.obstacles.size(); ++k) {
     Obstacle& fitted = scene.fitted.obstacles[k];
     fitted.box = lattice.box(lattice.obstacles()[k]);
-    const std::string& name = d.obstacles[k].name;
-    record_fit(scene, name.empty() ? fmt::format("obstacle[{}]", k) : name, d.obstacles[k].box, fitted.box);
+    record_fit(scene, called(d.obstacles[k], k), d.obstacles[k].box, fitted.box);
     end_motion(fitted, scene.fitted, k);
   }
 }
 
 }  // namespace
+
+std::string called(const Obstacle& obstacle, std::size_t k) {
+  return obstacle.name.empty() ? fmt::format("obstacle[{}]", k) : obstacle.name;
+}
 
 double fluid_ceiling_m(const Box& tank) {
   return tank.upper.z + 0.5 * (tank.upper.z - tank.lower.z);

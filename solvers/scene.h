@@ -22,6 +22,9 @@ struct Obstacle {
   RigidMotion motion{};
 };
 
+/// As it is called where lengths are told: its name or, without one, "obstacle[k]".
+std::string called(const Obstacle& obstacle, std::size_t k);
+
 /// The geometry and fluid of a case, as nominal (unfitted) lengths. A tank is its inner faces, open at the top.
 struct SceneDescription {
   Box tank;

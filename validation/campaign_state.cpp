@@ -3,12 +3,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "validation/campaign.h"
 #include "validation/checkpoint.h"
-#include "validation/manifest.h"
 #include "validation/run_checkpoint.h"
 
 namespace sluice {

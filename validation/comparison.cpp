@@ -48,9 +48,10 @@ void add_arrivals(Comparison& result, const Series& simulated, const MeasuredSer
   if (!result.arrival_s.measured) {
     result.remarks.push_back("no measured arrival: the series is over the threshold from the start");
   } else if (!result.arrival_s.simulated) {
-    const auto first = value_at(simulated, std::max(result.window.begin_s, simulated.t_s.front()));
+    const auto from = std::lower_bound(simulated.t_s.begin(), simulated.t_s.end(), result.window.begin_s);
+    const bool has_begin = from != simulated.t_s.end();
     result.remarks.push_back(
-        first && *first >= threshold
+        has_begin && simulated.value[static_cast<std::size_t>(from - simulated.t_s.begin())] >= threshold
             ? fmt::format("no simulated arrival: the series is over {:.4g} {} from the start", threshold, result.unit)
             : fmt::format("no simulated arrival: the series does not rise to {:.4g} {}", threshold, result.unit));
   }

@@ -10,13 +10,14 @@
 //   separator = ";"                       # "," (default), ";", "tab" or "blank"
 //   decimal_comma = true                  # default: false
 //   skip_incomplete_rows = true           # default: false, an empty or NaN field is an error
-//   header_lines = 1                      # default 1; the last of them names the columns
+//   header_lines = 1                      # default 1; the last of them names the columns; 0: they have numbers
 //   time = { column = "Time [s]", unit = "s", offset_s = 0.0 }
 //   columns = [ { sensor = "P1", column = "Press_0", unit = "kPa", offset = 0.0 } ]
 //
-// A column is named as in the header line, or counted from 1 on. Values become SI; `offset` is added first, in the
-// column's own unit. Series of several files are joined at all their times within what all of them cover; a file that
-// has a gap there is refused.
+// A column is named as in the header line, without quotes, or counted from 1 on. A header that is a comment ("# Time")
+// may name fewer columns than there are: those behind the first then have numbers. Values become SI; `offset` is added
+// first, in the column's own unit. Series of several files are joined at all their times within what all of them cover;
+// a file that has a gap there is refused.
 #pragma once
 
 #include <array>

@@ -50,6 +50,7 @@ std::vector<std::string> column_names(TextTableReader& reader, const ForeignFile
     if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
   if (is_comment) {
     const std::size_t columns = reader.count_fields(f.separator);
+    if (names.size() == columns + 1 && names.front().empty()) names.erase(names.begin());  // behind the comment's mark
     if (names.size() < columns) names.resize(std::min<std::size_t>(names.size(), 1));
     number_rest(names, columns);
   }

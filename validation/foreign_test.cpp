@@ -118,6 +118,13 @@ columns = [ { sensor = "P2", column = "3", unit = "hPa" } ]
   EXPECT_THAT(t.values("P2_Pa"), ElementsAre(100, 200));
 }
 
+/// A map's entry for a file of times `t` and one column.
+std::string mapped(const std::string& file, const std::string& time_unit, const std::string& sensor,
+                   const std::string& column, const std::string& unit) {
+  return "[[files]]\nfile = \"" + file + "\"\ntime = { column = \"t\", unit = \"" + time_unit +
+         "\" }\ncolumns = [ { sensor = \"" + sensor + "\", column = \"" + column + "\", unit = \"" + unit + "\" } ]\n";
+}
+
 /// As OpenFOAM's function object `probes` writes them.
 TEST_F(ForeignTest, CommentsForAHeaderNameTheFirstColumn) {
   write("p.dat", "# Probe 0 (0.66 0.5 0.02)\n#       Probe  0   1\n#        Time\n  0.0   10  1\n  0.1   20  2\n");
@@ -134,6 +141,16 @@ columns = [ { sensor = "P2", column = "3", unit = "hPa" } ]
       << "which column `p` is nobody can tell";
 }
 
+TEST_F(ForeignTest, ACommentsNamesStandOverTheirColumns) {
+  const std::string tabs = mapped("t.txt", "s", "P1", "p", "Pa").replace(0, 9, "[[files]]\nseparator = \"tab\"\n");
+  write("t.txt", "# t\tp\n0\t1\t\n1\t2\t\n");
+  EXPECT_THAT(read(tabs).values("P1_Pa"), ElementsAre(1, 2)) << "a tab at each row's end";
+  write("t.txt", "#\tt\tp\n0\t1\n1\t2\n");
+  EXPECT_THAT(read(tabs).values("P1_Pa"), ElementsAre(1, 2)) << "a tab behind the mark";
+  write("t.txt", "# t\tp\n");
+  EXPECT_THAT(refusal(tabs), HasSubstr("holds no row behind its header"));
+}
+
 TEST_F(ForeignTest, QuotesAroundNamesAreNotTheirs) {
   write("q.csv", "\"time [s]\",\"p\"\n0,1\n0.5,2\n");
   const ProbeTable t = read(R"([[files]]
@@ -142,13 +159,6 @@ time = { column = "time [s]", unit = "s" }
 columns = [ { sensor = "P1", column = "p", unit = "kPa" } ]
 )");
   EXPECT_THAT(t.values("P1_Pa"), ElementsAre(1000, 2000));
-}
-
-/// A map's entry for a file of times `t` and one column.
-std::string mapped(const std::string& file, const std::string& time_unit, const std::string& sensor,
-                   const std::string& column, const std::string& unit) {
-  return "[[files]]\nfile = \"" + file + "\"\ntime = { column = \"t\", unit = \"" + time_unit +
-         "\" }\ncolumns = [ { sensor = \"" + sensor + "\", column = \"" + column + "\", unit = \"" + unit + "\" } ]\n";
 }
 
 TEST_F(ForeignTest, SeveralFilesMeetAtAllTheirTimes) {

@@ -143,9 +143,14 @@ bool TextTableReader::next_line() {
 }
 
 std::size_t TextTableReader::count_fields(char separator) {
-  const auto count = split_fields(next_header_line(), separator).size();
+  if (line_number_ == 0)
+    next_header_line();
+  else if (!next_line())
+    return 0;
   ahead_ = true;
-  return count;
+  auto fields = split_fields(line_, separator);
+  while (separator == '\t' && !fields.empty() && fields.back().empty()) fields.pop_back();  // tabs at its end
+  return fields.size();
 }
 
 double TextTableReader::number(std::string_view field, const std::string& name, bool decimal_comma) const {

@@ -52,7 +52,7 @@ class TextTableReader {
   /// The same for rows of another form; columns that are not wanted come back empty.
   std::vector<std::vector<double>> read_rows(const std::vector<std::string>& names, const RowForm& form,
                                              std::size_t time_index);
-  /// Fields of the next line, which is not consumed.
+  /// Fields of the next line, which is not consumed; 0 where there is none. Throws where the file is empty.
   std::size_t count_fields(char separator);
   /// Rows that were left out.
   std::int64_t skipped() const { return skipped_; }

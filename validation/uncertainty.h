@@ -31,7 +31,7 @@ struct BiasAndScatter {
   std::optional<Interval> scatter_interval;
 
   /// Not where ratios scatter so far that the log-normal form makes most of the bias: exp(scatter^2 / 2) alone is then
-  /// more than 1.2, and one reading that is ten times too small would pass for predictions that are too large.
+  /// 1.2 or more, and one reading that is ten times too small would pass for predictions that are too large.
   bool tells_bias() const { return scatter <= 0.6; }
 };
 

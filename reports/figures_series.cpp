@@ -130,11 +130,17 @@ std::vector<Picture> method_figures(const FigureMaker& maker, SensorKind kind) {
 std::vector<Picture> other_code_figures(const FigureMaker& maker, SensorKind kind) {
   std::vector<Picture> pictures;
   const ReportData& data = maker.data;
-  const std::vector<RunGroup> groups = beside_references(data, runs_a_panel);
-  if (!maker.enabled || groups.empty()) return pictures;
+  const std::vector<RunGroup> all_groups = beside_references(data, runs_a_panel);
+  if (!maker.enabled || all_groups.empty()) return pictures;
   const bool smoothed = quantity_of(kind).spikes;
   for (const CaseSensor& sensor : data.the_case.sensors) {
     if (sensor.kind != kind) continue;
+    std::vector<RunGroup> groups = all_groups;
+    std::erase_if(groups, [&](const RunGroup& group) {
+      return std::none_of(group.runs.begin(), group.runs.end(), [&](const AnalysedRun* run) {
+        return !run->record.own && run->primary(sensor.name) != nullptr;
+      });
+    });
     Cut cut = spike_limit(data, sensor);
     auto panels = shared_panels(data, groups, sensor, {"", data.window, smoothed}, cut);
     if (panels.empty()) continue;

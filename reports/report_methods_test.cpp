@@ -78,6 +78,9 @@ TEST_F(BothMethods, OtherCodesShareAPanelWithTheFinestRunOfEach) {
   const auto drawn = shared_panels(data, groups, *data.the_case.find_sensor("P1"), {"", data.window, true}, cut);
   ASSERT_EQ(drawn.size(), 1U);
   EXPECT_EQ(labels_of_runs(drawn[0]).size(), 4U);
+  const auto pictures = other_code_figures({data, fresh("methods_other_figures")}, SensorKind::pressure);
+  ASSERT_EQ(pictures.size(), 1U) << "it has P1 alone";
+  EXPECT_EQ(pictures[0].name, "codes_P1");
   runs_.erase(std::find(runs_.begin(), runs_.end(), other));
   EXPECT_TRUE(beside_references(analyse(runs_), runs_a_panel).empty());
 }

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/report.h"
+#include "validation/cli/campaign_report.h"
 #include "validation/cli/campaign_slurm.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/usage_error.h"
@@ -66,12 +66,6 @@ double remaining_s(const Campaign& campaign, std::size_t from, bool force, const
     if (force || state_of(campaign, campaign.runs[i]) != CampaignState::finished)
       sum += estimate(campaign, campaign.runs[i], costs, force).remaining_s();
   return sum;
-}
-
-/// " (without the snapshots asked for)" of an outdated run.
-std::string reason(const Campaign& campaign, const CampaignRun& run) {
-  const std::string why = why_outdated(campaign, run);
-  return why.empty() ? "" : fmt::format(" ({})", why);
 }
 
 /// Returns the time that it expects for all [s].
@@ -170,32 +164,6 @@ bool print_results(const Campaign& campaign, const std::vector<Result>& results)
                              error.empty() ? "" : ": ", error));
   }
   return all_well;
-}
-
-/// One report a case, over its runs that have ended well.
-void report_cases(const Campaign& campaign, const fs::path& out) {
-  for (const Case& c : campaign.cases) {
-    std::vector<fs::path> directories;
-    for (const CampaignRun& run : campaign.runs)
-      if (&campaign.case_of(run) == &c && can_be_reported(campaign, run)) directories.push_back(run.directory);
-    if (directories.empty()) continue;
-    const fs::path folder = out / ("report-" + c.name);
-    write_report(directories, folder);
-    tell(stdout, fmt::format("report: {}\n", (folder / "index.html").string()));
-  }
-}
-
-/// 0 when all runs are finished, with or without snapshots.
-int report_only(const Campaign& campaign, const fs::path& out) {
-  report_cases(campaign, out);
-  int code = 0;
-  for (const CampaignRun& run : campaign.runs) {
-    if (state_of(campaign, run) == CampaignState::finished) continue;
-    fmt::print("{:12} {}{}\n", to_string(state_of(campaign, run)), run.directory.filename().string(),
-               reason(campaign, run));
-    if (!can_be_reported(campaign, run)) code = 1;
-  }
-  return code;
 }
 
 /// Drops all runs but that of this name.

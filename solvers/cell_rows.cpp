@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
+#include "solvers/counting_sort.h"
 #include "solvers/lanes.h"
 #include "solvers/state_archive.h"
 
@@ -51,41 +51,14 @@ void RowIndex::sort(std::span<const double> x, std::span<const double> y, std::s
   }
 }
 
-/// Counting sort by row: every block of particles counts, then knows where each of its rows begins, then places.
 void RowIndex::sort_into_rows(std::span<const double> y, std::span<const double> z,
                               std::span<const std::uint8_t> leaves, int threads) {
-  const auto rows = static_cast<std::size_t>(geometry_.rows());
-  const auto n = static_cast<std::int64_t>(y.size());
-  const std::int64_t blocks = threads;
-  std::vector<std::int32_t> counts(rows * static_cast<std::size_t>(blocks), 0);
-  const auto for_block = [&](std::int64_t b, auto&& visit) {
-    for (std::int64_t i = n * b / blocks; i < n * (b + 1) / blocks; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      if (leaves.empty() || leaves[k] == 0) visit(i, static_cast<std::size_t>(geometry_.row(y[k], z[k])));
-    }
+  const auto row_of = [&](std::int64_t i) -> std::int64_t {
+    const auto k = static_cast<std::size_t>(i);
+    return leaves.empty() || leaves[k] == 0 ? geometry_.row(y[k], z[k]) : -1;
   };
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::int64_t b = 0; b < blocks; ++b) {
-    std::int32_t* count = &counts[static_cast<std::size_t>(b) * rows];
-    for_block(b, [&](std::int64_t, std::size_t row) { ++count[row]; });
-  }
-  std::int32_t total = 0;
-  for (std::size_t r = 0; r < rows; ++r) {
-    row_start_[r] = total;
-    for (std::int64_t b = 0; b < blocks; ++b) {
-      std::int32_t& c = counts[static_cast<std::size_t>(b) * rows + r];
-      total += std::exchange(c, total);
-    }
-  }
-  row_start_[rows] = total;
-  by_row_.resize(static_cast<std::size_t>(total));
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::int64_t b = 0; b < blocks; ++b) {
-    std::int32_t* next = &counts[static_cast<std::size_t>(b) * rows];
-    for_block(b, [&](std::int64_t i, std::size_t row) {
-      by_row_[static_cast<std::size_t>(next[row]++)] = static_cast<std::int32_t>(i);
-    });
-  }
+  counting_sort(0, static_cast<std::int64_t>(y.size()), static_cast<std::size_t>(geometry_.rows()), threads, row_of,
+                row_start_, by_row_);
 }
 
 void RowIndex::sort_row_into_slices(std::int32_t row, std::span<const double> x, std::vector<std::int32_t>& scratch) {

@@ -3,8 +3,10 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
+#include "solvers/counting_sort.h"
 #include "solvers/mps/direct_solver.h"
 
 namespace sluice::mps {
@@ -119,8 +121,14 @@ void Multigrid<Real>::gather_cells(std::size_t l) {
     const auto row = static_cast<std::size_t>(a.z) * static_cast<std::size_t>(fine.ny) + static_cast<std::size_t>(a.y);
     return row * static_cast<std::size_t>(fine.nx) + static_cast<std::size_t>(a.x);
   };
-  for (std::size_t i = fine.begin(); i < fine.end(); ++i)
-    if (fine.matrix.has_row[i] != 0) fine.number_of_cell[grid_cell(fine.cell[i])] = 0;
+  const auto begin = static_cast<std::int64_t>(fine.begin());
+  const auto end = static_cast<std::int64_t>(fine.end());
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (std::int64_t k = begin; k < end; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (fine.matrix.has_row[i] != 0)
+      std::atomic_ref(fine.number_of_cell[grid_cell(fine.cell[i])]).store(0, std::memory_order_relaxed);
+  }
   Level& coarse = *levels_[l + 1];
   coarse.cell.clear();
   for (std::size_t c = 0; c < fine.number_of_cell.size(); ++c) {
@@ -129,22 +137,14 @@ void Multigrid<Real>::gather_cells(std::size_t l) {
     const auto at = static_cast<std::int32_t>(c);
     coarse.cell.push_back({at % fine.nx / 2, at / fine.nx % fine.ny / 2, at / fine.nx / fine.ny / 2});
   }
-  fine.member_start.assign(coarse.cell.size() + 2, 0);
-  const auto n = static_cast<std::int64_t>(fine.end());
 #pragma omp parallel for num_threads(threads_) schedule(static)
-  for (auto k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
+  for (std::int64_t k = begin; k < end; ++k) {
     const auto i = static_cast<std::size_t>(k);
     if (fine.matrix.has_row[i] != 0) fine.coarse[i] = fine.number_of_cell[grid_cell(fine.cell[i])];
   }
-  for (std::size_t i = fine.begin(); i < fine.end(); ++i)
-    if (fine.coarse[i] >= 0) ++fine.member_start[static_cast<std::size_t>(fine.coarse[i]) + 2];
-  for (std::size_t c = 2; c < fine.member_start.size(); ++c) fine.member_start[c] += fine.member_start[c - 1];
-  fine.members.resize(static_cast<std::size_t>(fine.member_start.back()));
-  for (std::size_t i = fine.begin(); i < fine.end(); ++i) {
-    if (fine.coarse[i] < 0) continue;
-    auto& next = fine.member_start[static_cast<std::size_t>(fine.coarse[i]) + 1];
-    fine.members[static_cast<std::size_t>(next++)] = static_cast<std::int32_t>(i);
-  }
+  counting_sort(
+      begin, end, coarse.cell.size(), threads_,
+      [&](std::int64_t i) { return fine.coarse[static_cast<std::size_t>(i)]; }, fine.member_start, fine.members);
 }
 
 /// The entry between two cells is the sum of the entries between their members.

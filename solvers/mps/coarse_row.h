@@ -1,72 +1,101 @@
 // One row of a coarse matrix of the multigrid while it is summed from the rows of the cell's members.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "solvers/mps/pressure_matrix.h"
 
 namespace sluice::mps {
 
+/// What stands for a cell where an unknown has none.
+constexpr std::int32_t no_cell = std::numeric_limits<std::int32_t>::min() / 2;
+
+/// A cell and those that touch it, in a grid of nx x ny x nz cells numbered along x, then y, then z. Neighbours are no
+/// further apart than a cell is wide, so that all entries of a row lead to these.
+class TouchingCells {
+ public:
+  static constexpr std::size_t most = 27;
+  static constexpr std::uint8_t nowhere = most;
+
+  TouchingCells(std::int32_t nx, std::int32_t ny) : reach_(1 + nx + nx * ny) {
+    for (std::int32_t z = -1; z <= 1; ++z)
+      for (std::int32_t y = -1; y <= 1; ++y)
+        for (std::int32_t x = -1; x <= 1; ++x) offsets_.push_back((z * ny + y) * nx + x);
+    std::sort(offsets_.begin(), offsets_.end());
+    offsets_.erase(std::unique(offsets_.begin(), offsets_.end()), offsets_.end());  // narrow grids have fewer
+    slots_.assign(static_cast<std::size_t>(2 * reach_ + 1), nowhere);
+    for (std::size_t slot = 0; slot < offsets_.size(); ++slot)
+      slots_[static_cast<std::size_t>(offsets_[slot] + reach_)] = static_cast<std::uint8_t>(slot);
+  }
+
+  /// Of the cell `to` as seen from `from`: an index into offsets(), or nowhere.
+  std::size_t slot(std::int32_t from, std::int32_t to) const {
+    const auto at = static_cast<std::uint32_t>(to - from + reach_);
+    return at < slots_.size() ? slots_[at] : nowhere;
+  }
+  /// From a cell's number to those of the cells that touch it, and to its own; ascending.
+  const std::vector<std::int32_t>& offsets() const { return offsets_; }
+
+ private:
+  std::int32_t reach_;
+  std::vector<std::int32_t> offsets_;
+  std::vector<std::uint8_t> slots_;
+};
+
 template <class Real>
 class CoarseRow {
  public:
-  /// For columns 0 .. cells, of which the last stands for entries that lead to no cell.
-  void make_room(std::size_t cells) {
-    if (place_.size() <= cells) place_.resize(cells + 1, -1);
-    nowhere_ = static_cast<std::int32_t>(cells);
+  /// Starts the row of a cell.
+  void start(std::int32_t cell) {
+    cell_ = cell;
+    for (auto& sums : sums_) sums = {};
   }
 
-  /// Starts the row of cell I. Its first two columns are `nowhere` and I itself.
-  void start(std::int32_t I) {
-    columns_.clear();
-    values_.clear();
-    place_of(nowhere_);
-    place_of(I);
-  }
-
-  /// Adds the entries of one row of the finer matrix; `coarse` is the cell of each of its columns, or negative.
+  /// Adds the entries of row i of the finer matrix; `cell_of` is the cell of each of its columns, or no_cell.
   /// Neighbouring entries mostly go to one cell, and each addition would wait for the one before: so they take turns.
-  void add(const Entries<Real>& entries, const std::vector<std::int32_t>& coarse, std::size_t i) {
+  void add(const TouchingCells& touching, const Entries<Real>& entries, const std::vector<std::int32_t>& cell_of,
+           std::size_t i) {
     const Span row = entries.rows[i];
     for (std::uint32_t k = row.begin; k < row.end; ++k) {
-      const std::int32_t J = coarse[static_cast<std::size_t>(entries.columns[k])];
-      values_[place_of(J < 0 ? nowhere_ : J)][(k - row.begin) % turns] += entries.weights[k];
+      const std::int32_t to = cell_of[static_cast<std::size_t>(entries.columns[k])];
+      sums_[touching.slot(cell_, to)][(k - row.begin) % turns] += entries.weights[k];
     }
   }
 
-  /// Sums, times a factor.
-  void finish(Real factor) {
-    totals_.clear();
-    for (const auto& v : values_) totals_.push_back(factor * ((v[0] + v[1]) + (v[2] + v[3])));
-    for (const std::int32_t J : columns_) place_[static_cast<std::size_t>(J)] = -1;
+  /// Sums, times a factor; `number_of_cell` becomes the columns' numbers.
+  void finish(const TouchingCells& touching, const std::vector<std::int32_t>& number_of_cell, Real factor) {
+    size_ = 0;
+    for (std::size_t slot = 0; slot < touching.offsets().size(); ++slot) {
+      const auto& s = sums_[slot];
+      const Real sum = factor * ((s[0] + s[1]) + (s[2] + s[3]));
+      const std::int32_t offset = touching.offsets()[slot];
+      if (offset == 0) within_ = sum;
+      if (offset == 0 || !(sum > 0)) continue;
+      columns_[size_] = number_of_cell[static_cast<std::size_t>(cell_ + offset)];
+      values_[size_++] = sum;
+    }
   }
 
   // After finish().
-  Real within() const { return totals_[1]; }  ///< sum of the entries inside the cell
-  const std::int32_t* columns() const { return columns_.data() + 2; }
-  const Real* values() const { return totals_.data() + 2; }
-  std::size_t size() const { return columns_.size() - 2; }
+  Real within() const { return within_; }  ///< sum of the entries inside the cell
+  const std::int32_t* columns() const { return columns_.data(); }
+  const Real* values() const { return values_.data(); }
+  std::size_t size() const { return size_; }
 
  private:
   static constexpr std::size_t turns = 4;
 
-  std::size_t place_of(std::int32_t J) {
-    std::int32_t& place = place_[static_cast<std::size_t>(J)];
-    if (place < 0) {
-      place = static_cast<std::int32_t>(columns_.size());
-      columns_.push_back(J);
-      values_.push_back({});
-    }
-    return static_cast<std::size_t>(place);
-  }
-
-  std::int32_t nowhere_ = 0;
-  std::vector<std::int32_t> place_;    ///< of a column in this row, -1 for none
-  std::vector<std::int32_t> columns_;  ///< by place
-  std::vector<std::array<Real, turns>> values_;
-  std::vector<Real> totals_;
+  std::int32_t cell_ = 0;
+  std::array<std::array<Real, turns>, TouchingCells::most + 1> sums_{};  ///< by slot, the last for nowhere
+  Real within_{};
+  std::size_t size_ = 0;
+  std::array<std::int32_t, TouchingCells::most> columns_{};
+  std::array<Real, TouchingCells::most> values_{};
 };
 
 }  // namespace sluice::mps

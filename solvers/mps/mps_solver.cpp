@@ -63,12 +63,11 @@ void MpsSolver<Pack>::list_rows() {
   next_velocity_.resize(particles_.size());
   particles_.encode_positions(tank_.domain(), first, threads_);
   list_.list(particles_, fluid_set(), wall_set(), dummy_set(), reach_, threads_);
-  const auto listed = [&](const std::vector<double>& from, std::vector<double>& to) {
-    to.assign(from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
-  };
-  listed(x.x, listed_.x);
-  listed(x.y, listed_.y);
-  listed(x.z, listed_.z);
+  listed_.resize(particles_.fluid);
+  const auto n = static_cast<std::int64_t>(particles_.fluid);
+#pragma omp parallel for num_threads(threads_) schedule(static)
+  for (std::int64_t k = 0; k < n; ++k)
+    listed_.set(static_cast<std::size_t>(k), x.template at<double>(first + static_cast<std::size_t>(k)));
 }
 
 template <class Pack>

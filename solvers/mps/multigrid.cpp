@@ -30,13 +30,15 @@ template <class Real>
 struct Multigrid<Real>::Level {
   PressureMatrix<Real> matrix;
   std::vector<Real> x, b, scratch;
-  std::vector<CellAddress> cell;     ///< of each unknown, in cells of the next level
-  std::vector<std::int32_t> coarse;  ///< cell's number on the next level, -1 where there is no row
-  // How the next level's cells are made up.
-  std::vector<std::int32_t> number_of_cell;  ///< by grid cell, -1 if empty
+  std::vector<std::int32_t> cell;    ///< of each unknown, in the grid of the next level; no_cell where there is no row
+  std::vector<std::int32_t> coarse;  ///< that cell's number on the next level, -1 where there is no row
+  // The next level's unknowns: those cells of its grid that have members.
+  std::int32_t nx = 0, ny = 0, nz = 0;
+  TouchingCells touching{0, 0};
+  std::vector<std::int32_t> number_of_cell;  ///< by cell of the grid, -1 if empty
+  std::vector<std::int32_t> filled_cells;    ///< by number
   std::vector<std::int32_t> member_start;    ///< cells + 1
   std::vector<std::int32_t> members;
-  std::int32_t nx = 0, ny = 0, nz = 0;  ///< grid of those cells
   // This level's own matrix, unless it is the finest.
   SparseRows<Real> rows;
   std::vector<Real> diagonal;
@@ -44,6 +46,7 @@ struct Multigrid<Real>::Level {
 
   std::size_t begin() const { return matrix.begin; }
   std::size_t end() const { return matrix.end; }
+  std::int32_t cell_at(std::int32_t x, std::int32_t y, std::int32_t z) const { return (z * ny + y) * nx + x; }
 };
 
 template <class Real>
@@ -62,6 +65,7 @@ Multigrid<Real>::Multigrid(const Box& domain_m, double cell_edge_m, int threads)
     level->nx = nx;
     level->ny = ny;
     level->nz = nz;
+    level->touching = TouchingCells(nx, ny);
     level->number_of_cell.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
                                  static_cast<std::size_t>(nz));
     levels_.push_back(std::move(level));
@@ -91,7 +95,9 @@ void Multigrid<Real>::prepare(const PressureMatrix<Real>& matrix, std::span<cons
     const auto at = [&](double value, double lower) {
       return static_cast<std::int32_t>((value - lower) / cell_edge_m_);
     };
-    finest.cell[i] = {at(x[i], domain_.lower.x), at(y[i], domain_.lower.y), at(z[i], domain_.lower.z)};
+    finest.cell[i] = matrix.has_row[i] == 0 ? no_cell
+                                            : finest.cell_at(at(x[i], domain_.lower.x), at(y[i], domain_.lower.y),
+                                                             at(z[i], domain_.lower.z));
   }
   used_levels_ = 1;
   for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
@@ -117,30 +123,28 @@ void Multigrid<Real>::gather_cells(std::size_t l) {
   Level& fine = *levels_[l];
   std::fill(fine.number_of_cell.begin(), fine.number_of_cell.end(), -1);
   fine.coarse.assign(fine.end(), -1);
-  const auto grid_cell = [&](const CellAddress& a) {
-    const auto row = static_cast<std::size_t>(a.z) * static_cast<std::size_t>(fine.ny) + static_cast<std::size_t>(a.y);
-    return row * static_cast<std::size_t>(fine.nx) + static_cast<std::size_t>(a.x);
-  };
   const auto begin = static_cast<std::int64_t>(fine.begin());
   const auto end = static_cast<std::int64_t>(fine.end());
 #pragma omp parallel for num_threads(threads_) schedule(static)
   for (std::int64_t k = begin; k < end; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    if (fine.matrix.has_row[i] != 0)
-      std::atomic_ref(fine.number_of_cell[grid_cell(fine.cell[i])]).store(0, std::memory_order_relaxed);
+    const std::int32_t cell = fine.cell[static_cast<std::size_t>(k)];
+    if (cell != no_cell)
+      std::atomic_ref(fine.number_of_cell[static_cast<std::size_t>(cell)]).store(0, std::memory_order_relaxed);
   }
   Level& coarse = *levels_[l + 1];
   coarse.cell.clear();
-  for (std::size_t c = 0; c < fine.number_of_cell.size(); ++c) {
-    if (fine.number_of_cell[c] < 0) continue;
-    fine.number_of_cell[c] = static_cast<std::int32_t>(coarse.cell.size());
-    const auto at = static_cast<std::int32_t>(c);
-    coarse.cell.push_back({at % fine.nx / 2, at / fine.nx % fine.ny / 2, at / fine.nx / fine.ny / 2});
+  fine.filled_cells.clear();
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(fine.number_of_cell.size()); ++c) {
+    std::int32_t& number = fine.number_of_cell[static_cast<std::size_t>(c)];
+    if (number < 0) continue;
+    number = static_cast<std::int32_t>(coarse.cell.size());
+    fine.filled_cells.push_back(c);
+    coarse.cell.push_back(coarse.cell_at(c % fine.nx / 2, c / fine.nx % fine.ny / 2, c / fine.nx / fine.ny / 2));
   }
 #pragma omp parallel for num_threads(threads_) schedule(static)
   for (std::int64_t k = begin; k < end; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    if (fine.matrix.has_row[i] != 0) fine.coarse[i] = fine.number_of_cell[grid_cell(fine.cell[i])];
+    if (fine.cell[i] != no_cell) fine.coarse[i] = fine.number_of_cell[static_cast<std::size_t>(fine.cell[i])];
   }
   counting_sort(
       begin, end, coarse.cell.size(), threads_,
@@ -156,7 +160,6 @@ void Multigrid<Real>::sum_coarse_matrix(std::size_t l) {
   coarse.diagonal.resize(cells);
   coarse.has_row.assign(cells, 1);
   coarse.rows.reserve(cells, 32 * cells);
-  for (CoarseRow<Real>& sum : row_sums_) sum.make_room(cells);
   do {
     coarse.rows.clear(cells);
 #pragma omp parallel num_threads(threads_)
@@ -166,14 +169,14 @@ void Multigrid<Real>::sum_coarse_matrix(std::size_t l) {
 #pragma omp for schedule(dynamic, 64)
       for (std::int64_t row = 0; row < static_cast<std::int64_t>(cells); ++row) {
         const auto I = static_cast<std::size_t>(row);
-        sum.start(static_cast<std::int32_t>(row));
+        sum.start(fine.filled_cells[I]);
         Real diagonal{};
         for (auto m = fine.member_start[I]; m < fine.member_start[I + 1]; ++m) {
           const auto i = static_cast<std::size_t>(fine.members[static_cast<std::size_t>(m)]);
           diagonal += fine.matrix.near_diagonal[i];
-          sum.add(fine.matrix.near, fine.coarse, i);
+          sum.add(fine.touching, fine.matrix.near, fine.cell, i);
         }
-        sum.finish(fine.matrix.near_factor);
+        sum.finish(fine.touching, fine.number_of_cell, fine.matrix.near_factor);
         coarse.diagonal[I] = diagonal - sum.within();
         writer.write(I, sum.columns(), sum.values(), sum.size());
       }
@@ -297,8 +300,8 @@ std::int64_t Multigrid<Real>::memory_bytes() const {
   std::int64_t sum = 0;
   for (const auto& l : levels_) {
     sum += bytes(l->x) + bytes(l->b) + bytes(l->scratch) + bytes(l->cell) + bytes(l->coarse) +
-           bytes(l->number_of_cell) + bytes(l->member_start) + bytes(l->members) + l->rows.memory_bytes() +
-           bytes(l->diagonal) + bytes(l->has_row);
+           bytes(l->number_of_cell) + bytes(l->filled_cells) + bytes(l->member_start) + bytes(l->members) +
+           l->rows.memory_bytes() + bytes(l->diagonal) + bytes(l->has_row);
   }
   return sum;
 }

@@ -17,13 +17,6 @@ namespace sluice::mps {
 
 class DirectSolver;
 
-/// The cell of an unknown.
-struct CellAddress {
-  std::int32_t x = 0;
-  std::int32_t y = 0;
-  std::int32_t z = 0;
-};
-
 /// How much work a level is.
 struct LevelSize {
   std::int64_t unknowns = 0;

@@ -22,7 +22,7 @@ class TouchingCells {
   static constexpr std::size_t most = 27;
   static constexpr std::uint8_t nowhere = most;
 
-  TouchingCells(std::int32_t nx, std::int32_t ny) : reach_(1 + nx + nx * ny) {
+  TouchingCells(std::int32_t nx, std::int32_t ny) : reach_(1 + nx + std::int64_t{nx} * ny) {
     for (std::int32_t z = -1; z <= 1; ++z)
       for (std::int32_t y = -1; y <= 1; ++y)
         for (std::int32_t x = -1; x <= 1; ++x) offsets_.push_back((z * ny + y) * nx + x);
@@ -35,14 +35,14 @@ class TouchingCells {
 
   /// Of the cell `to` as seen from `from`: an index into offsets(), or nowhere.
   std::size_t slot(std::int32_t from, std::int32_t to) const {
-    const auto at = static_cast<std::uint32_t>(to - from + reach_);
+    const auto at = static_cast<std::size_t>(to - from + reach_);
     return at < slots_.size() ? slots_[at] : nowhere;
   }
   /// From a cell's number to those of the cells that touch it, and to its own; ascending.
   const std::vector<std::int32_t>& offsets() const { return offsets_; }
 
  private:
-  std::int32_t reach_;
+  std::int64_t reach_;
   std::vector<std::int32_t> offsets_;
   std::vector<std::uint8_t> slots_;
 };
@@ -76,7 +76,7 @@ class CoarseRow {
       const std::int32_t offset = touching.offsets()[slot];
       if (offset == 0) within_ = sum;
       if (offset == 0 || !(sum > 0)) continue;
-      columns_[size_] = number_of_cell[static_cast<std::size_t>(cell_ + offset)];
+      columns_[size_] = number_of_cell[static_cast<std::size_t>(std::int64_t{cell_} + offset)];
       values_[size_++] = sum;
     }
   }

@@ -48,9 +48,39 @@ std::vector<const AnalysedRun*> ended_runs(const ReportData& data, const std::st
   for (const AnalysedRun& run : data.runs)
     if (run.record.own && run.record.status() == "finished" && run.record.solver == solver && scope.has(run))
       runs.push_back(&run);
+  return runs;
+}
+
+/// Those that reach the window's end, if any do.
+std::vector<const AnalysedRun*> ended_runs(const ReportData& data, const std::string& solver, const WallsScope& scope) {
+  std::vector<const AnalysedRun*> runs = finished_runs(data, solver, scope);
   const auto whole = [&](const AnalysedRun* run) { return is_whole(data, run->record); };
   if (std::any_of(runs.begin(), runs.end(), whole)) std::erase_if(runs, std::not_fn(whole));
   return runs;
+}
+
+/// Of the runs of one solver.
+std::vector<const AnalysedRun*> with_judged_parameters(const ReportData& data, const std::string& solver,
+                                                       const WallsScope& scope, std::vector<const AnalysedRun*> runs) {
+  const auto parameters = judged_parameters(data, solver, scope);
+  std::erase_if(runs,
+                [&](const AnalysedRun* run) { return changed_parameters(run->record, data.the_case) != parameters; });
+  return runs;
+}
+
+/// Those of one flow at the finest particle distance that has both.
+BothMethods finest_pair(const ReportData& data, const std::vector<const AnalysedRun*>& mps,
+                        const std::vector<const AnalysedRun*>& wcsph) {
+  BothMethods finest;
+  for (const AnalysedRun* run : mps) {
+    BothMethods both;
+    both.l0_m = run->record.l0_m;
+    const auto alike = [&](const AnalysedRun* other) { return same_flow(data, run->record, other->record); };
+    std::copy_if(mps.begin(), mps.end(), std::back_inserter(both.mps), alike);
+    std::copy_if(wcsph.begin(), wcsph.end(), std::back_inserter(both.wcsph), alike);
+    if (!both.wcsph.empty() && (finest.mps.empty() || both.l0_m < finest.l0_m)) finest = both;
+  }
+  return finest;
 }
 
 }  // namespace
@@ -78,9 +108,10 @@ std::map<std::string, double> judged_parameters(const ReportData& data, const st
 void note_judged_parameters(Table& table, const ReportData& data) {
   const auto note = [&](const std::string& solver, const std::string& name, const WallsScope& scope) {
     if (const std::string text = parameters_text(judged_parameters(data, solver, scope)); !text.empty())
-      table.notes.push_back(
-          fmt::format("Beside the other method, {} is judged by its runs with {}: none has the case's parameters.",
-                      scope.named(name), text.substr(2)));
+      table.notes.push_back(fmt::format(
+          "In statements on both methods and on signs, {} is judged by its runs with {}: none has the case's "
+          "parameters.",
+          scope.named(name), text.substr(2)));
   };
   note("mps", "MPS", {});
   for (const WallsScope& scope : walls_scopes(data)) note("wcsph", "WCSPH", scope);
@@ -88,11 +119,7 @@ void note_judged_parameters(Table& table, const ReportData& data) {
 
 std::vector<const AnalysedRun*> judged_runs(const ReportData& data, const std::string& solver,
                                             const WallsScope& scope) {
-  const auto parameters = judged_parameters(data, solver, scope);
-  std::vector<const AnalysedRun*> runs = ended_runs(data, solver, scope);
-  std::erase_if(runs,
-                [&](const AnalysedRun* run) { return changed_parameters(run->record, data.the_case) != parameters; });
-  return runs;
+  return with_judged_parameters(data, solver, scope, ended_runs(data, solver, scope));
 }
 
 void add(Table& table, const std::string& statement, const std::string& paper, const Evidence& ours) {
@@ -121,18 +148,10 @@ std::vector<WallsScope> alpha_scopes(const ReportData& data) {
 }
 
 BothMethods finest_of_both(const ReportData& data, const WallsScope& scope) {
-  BothMethods finest;
-  const auto mps = judged_runs(data, "mps");
-  const auto wcsph = judged_runs(data, "wcsph", scope);
-  for (const AnalysedRun* run : mps) {
-    BothMethods both;
-    both.l0_m = run->record.l0_m;
-    const auto alike = [&](const AnalysedRun* other) { return same_flow(data, run->record, other->record); };
-    std::copy_if(mps.begin(), mps.end(), std::back_inserter(both.mps), alike);
-    std::copy_if(wcsph.begin(), wcsph.end(), std::back_inserter(both.wcsph), alike);
-    if (!both.wcsph.empty() && (finest.mps.empty() || both.l0_m < finest.l0_m)) finest = both;
-  }
-  return finest;
+  const BothMethods whole = finest_pair(data, judged_runs(data, "mps"), judged_runs(data, "wcsph", scope));
+  if (!whole.mps.empty()) return whole;
+  return finest_pair(data, with_judged_parameters(data, "mps", {}, finished_runs(data, "mps", {})),
+                     with_judged_parameters(data, "wcsph", scope, finished_runs(data, "wcsph", scope)));
 }
 
 ShownSensors shown_sensors(const ReportData& data, SensorKind kind) {

@@ -62,7 +62,8 @@ void note_judged_parameters(Table& table, const ReportData& data);
 std::vector<const AnalysedRun*> judged_runs(const ReportData& data, const std::string& solver,
                                             const WallsScope& scope = {});
 
-/// Judged runs of MPS and WCSPH at the finest particle distance that has both.
+/// Judged runs of MPS and WCSPH at the finest particle distance that has both; where no such runs reach the window's
+/// end, shorter ones.
 struct BothMethods {
   std::vector<const AnalysedRun*> mps;
   std::vector<const AnalysedRun*> wcsph;

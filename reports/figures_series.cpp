@@ -147,9 +147,8 @@ std::vector<Picture> other_code_figures(const FigureMaker& maker, SensorKind kin
     share_range(panels, cut);
     const std::string caption = fmt::format("{}, other codes on one axis: {}primary readings.{}", headed(sensor),
                                             smoothed ? smoothed_words : "", axis_remark(cut));
-    pictures.push_back(
-        draw_series(maker, "codes_" + sensor.name, std::move(panels), with_remark(data, sensor, caption),
-                    fmt::format("{} over time, experiment, other codes and references", axis_name(sensor))));
+    pictures.push_back(draw_series(maker, "codes_" + sensor.name, std::move(panels), with_remark(data, sensor, caption),
+                                   fmt::format("{} over time, experiment and other codes", axis_name(sensor))));
   }
   return pictures;
 }

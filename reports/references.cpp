@@ -46,10 +46,9 @@ std::vector<RunGroup> beside_references(const ReportData& data, std::size_t limi
   std::vector<RunGroup> groups;
   const std::size_t room = limit - ours.size();
   const std::size_t count = (others.size() + room - 1) / room;
-  for (std::size_t g = 0; g < count; ++g) {  // of nearly equal size: one alone would have nothing beside it
-    RunGroup group{ours.empty() ? "other codes" : "other codes and the finest run of each method", ours};
-    for (std::size_t k = others.size() * g / count; k < others.size() * (g + 1) / count; ++k)
-      group.runs.push_back(others[k]);
+  for (std::size_t g = 0; g < count; ++g) {
+    RunGroup group{ours.empty() ? "other codes" : "other codes and a run of each method here", ours};
+    for (std::size_t k = g; k < others.size(); k += count) group.runs.push_back(others[k]);  // mixed: they are sorted
     groups.push_back(std::move(group));
   }
   return groups;

@@ -168,6 +168,9 @@ TEST(ReportTables, AShortTrialDoesNotHideWholeRuns) {
     write({.solver = "mps", .walls = "dummies", .l0_m = l0_m, .scale = 0.9, .t_end_s = t_end_s}, t_end_s);
   }
   EXPECT_EQ(cell(conclusions_table(analyse(runs)), "MPS is more accurate in impulse", "verdict").text, "agrees");
+  runs.erase(runs.begin() + 1);  // of the whole ones WCSPH alone is left
+  EXPECT_NE(cell(conclusions_table(analyse(runs)), "WCSPH takes many more steps than MPS", "verdict").text, "missing")
+      << "short runs of both are better than none";
 }
 
 }  // namespace

@@ -83,6 +83,14 @@ TEST_F(BothMethods, OtherCodesShareAPanelWithTheFinestRunOfEach) {
   EXPECT_EQ(pictures[0].name, "codes_P1");
   runs_.erase(std::find(runs_.begin(), runs_.end(), other));
   EXPECT_TRUE(beside_references(analyse(runs_), runs_a_panel).empty());
+  std::vector<fs::path> codes;
+  for (int k = 0; k < 6; ++k) {
+    codes.push_back(fresh("methods_code_" + std::to_string(k)));
+    synthetic::write_external_run(codes.back(), 1 + 0.01 * k);
+    test_files::put_in_manifest(codes.back(), {{"solver", k < 3 ? "one" : "two"}});
+  }
+  for (const RunGroup& group : beside_references(analyse(codes), runs_a_panel))
+    EXPECT_NE(group.runs.front()->group, group.runs.back()->group) << "of two codes each panel has both";
 }
 
 TEST_F(BothMethods, ShareAPanelOfOneParticleDistanceAndWallModel) {

@@ -24,7 +24,7 @@ void add_other_codes(ReportSection& section, const FigureMaker& maker, SensorKin
   const auto pictures = other_code_figures(maker, kind);
   if (pictures.empty()) return;
   section.blocks.push_back(
-      Paragraph{"**Other codes on one axis**, with the finest run of each method here where there is one:"});
+      Paragraph{"**Other codes on one axis**, with the run that stands for each method here where there is one:"});
   append(section, pictures);
   section.blocks.push_back(Paragraph{"**Each method and code by itself**:"});
 }

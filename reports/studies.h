@@ -37,9 +37,9 @@ std::vector<ResolutionSeries> resolution_series(const ReportData& data);
 /// methods and at most `limit` runs (two or more).
 std::vector<RunGroup> method_groups(const ReportData& data, std::size_t limit);
 
-/// Runs of other codes for one pair of axes with what they are to be held against: the finest whole run of each of our
-/// solvers and walls. At most `limit` runs in each; nothing where there are no runs of other codes, or where a run is
-/// all there is.
+/// Runs of other codes for one pair of axes with what they are to be held against: of each of our solvers and walls the
+/// finest whole run with the case's parameters and alpha, where there is such a one. At most `limit` runs in each;
+/// nothing where there are no runs of other codes, or where a run is all there is.
 std::vector<RunGroup> beside_references(const ReportData& data, std::size_t limit);
 
 /// Runs alike in all but one length that the case leaves open, at least two of them, smallest first.

@@ -63,14 +63,16 @@ Evidence judge_least(const ReportData& data, const WallsScope& scope, Measure me
 }
 
 /// Noise of a pressure from after the impact, whose one spike would hide the rest, to where the paper's text sees
-/// oscillations; over the whole window where the wave comes later than that.
+/// oscillations; missing where the wave comes too late for that.
 std::optional<double> noise_after_impact(const ReportData& data, const SensorReading& reading) {
   constexpr double impact_s = 0.1;
   constexpr double end_s = 1.5;
+  constexpr double least_s = 0.1;
   const Window whole = data.window_of(reading.sensor);
   const auto arrival_s = reading.comparison.arrival_s.measured;
-  const Window after{arrival_s.value_or(whole.begin_s) + impact_s, std::min(end_s, whole.end_s)};
-  return noise(reading.series, after.begin_s < after.end_s ? after : whole);
+  const Window after{arrival_s ? *arrival_s + impact_s : whole.begin_s, std::min(end_s, whole.end_s)};
+  if (after.end_s - after.begin_s < least_s) return std::nullopt;
+  return noise(reading.series, after);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A stable sort of many by few keys, by several threads; its result does not depend on how many.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -15,7 +16,9 @@ template <class Key>
 void counting_sort(std::int64_t first, std::int64_t last, std::size_t keys, int threads, Key&& key,
                    std::vector<std::int32_t>& start, std::vector<std::int32_t>& order) {
   const std::int64_t n = last - first;
-  const std::int64_t blocks = threads;
+  // As many as pay: each has a count of every key.
+  const std::int64_t blocks =
+      std::clamp<std::int64_t>(n / std::max<std::int64_t>(1, static_cast<std::int64_t>(keys)), 1, threads);
   std::vector<std::int32_t> counts(keys * static_cast<std::size_t>(blocks), 0);
   const auto for_block = [&](std::int64_t b, auto&& visit) {
     for (std::int64_t i = first + n * b / blocks; i < first + n * (b + 1) / blocks; ++i)
@@ -23,7 +26,7 @@ void counting_sort(std::int64_t first, std::int64_t last, std::size_t keys, int 
   };
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (std::int64_t b = 0; b < blocks; ++b) {
-    std::int32_t* count = &counts[static_cast<std::size_t>(b) * keys];
+    std::int32_t* count = counts.data() + static_cast<std::size_t>(b) * keys;
     for_block(b, [&](std::int64_t, std::size_t k) { ++count[k]; });
   }
   start.resize(keys + 1);
@@ -39,7 +42,7 @@ void counting_sort(std::int64_t first, std::int64_t last, std::size_t keys, int 
   order.resize(static_cast<std::size_t>(total));
 #pragma omp parallel for num_threads(threads) schedule(static)
   for (std::int64_t b = 0; b < blocks; ++b) {
-    std::int32_t* next = &counts[static_cast<std::size_t>(b) * keys];
+    std::int32_t* next = counts.data() + static_cast<std::size_t>(b) * keys;
     for_block(b, [&](std::int64_t i, std::size_t k) {
       order[static_cast<std::size_t>(next[k]++)] = static_cast<std::int32_t>(i);
     });

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "solvers/fields.h"
 #include "solvers/mps/pressure_matrix.h"
 
 namespace sluice::mps {
@@ -40,6 +41,7 @@ class TouchingCells {
   }
   /// From a cell's number to those of the cells that touch it, and to its own; ascending.
   const std::vector<std::int32_t>& offsets() const { return offsets_; }
+  std::int64_t memory_bytes() const { return bytes(offsets_) + bytes(slots_); }
 
  private:
   std::int64_t reach_;

@@ -77,7 +77,7 @@ MpsSolver<Pack>::MpsSolver(const Scene& scene, const Parameters& parameters, int
       walls_(rows(tank_, parameters), solids_of(scene, true)),
       dummies_(rows(tank_, parameters), solids_of(scene, false)),
       moving_walls_(scene),
-      pressure_equation_(constants_, tank_.domain(), threads_) {
+      pressure_equation_(constants_, reach_.near_radius_m, tank_.domain(), threads_) {
   if (scene.description.wall_layers < 3)
     throw std::invalid_argument(
         fmt::format("wall_layers = {}: MPS needs three layers, one of wall and two of dummy particles",

@@ -33,7 +33,7 @@ struct Multigrid<Real>::Level {
   std::vector<std::int32_t> cell;    ///< of each unknown, in the grid of the next level; no_cell where there is no row
   std::vector<std::int32_t> coarse;  ///< that cell's number on the next level, -1 where there is no row
   // The next level's unknowns: those cells of its grid that have members.
-  std::int32_t nx = 0, ny = 0, nz = 0;
+  std::int32_t nx = 0, ny = 0;
   TouchingCells touching{0, 0};
   std::vector<std::int32_t> number_of_cell;  ///< by cell of the grid, -1 if empty
   std::vector<std::int32_t> filled_cells;    ///< by number
@@ -64,7 +64,6 @@ Multigrid<Real>::Multigrid(const Box& domain_m, double cell_edge_m, int threads)
     auto level = std::make_unique<Level>();
     level->nx = nx;
     level->ny = ny;
-    level->nz = nz;
     level->touching = TouchingCells(nx, ny);
     level->number_of_cell.resize(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
                                  static_cast<std::size_t>(nz));
@@ -300,8 +299,8 @@ std::int64_t Multigrid<Real>::memory_bytes() const {
   std::int64_t sum = 0;
   for (const auto& l : levels_) {
     sum += bytes(l->x) + bytes(l->b) + bytes(l->scratch) + bytes(l->cell) + bytes(l->coarse) +
-           bytes(l->number_of_cell) + bytes(l->filled_cells) + bytes(l->member_start) + bytes(l->members) +
-           l->rows.memory_bytes() + bytes(l->diagonal) + bytes(l->has_row);
+           bytes(l->number_of_cell) + bytes(l->filled_cells) + l->touching.memory_bytes() + bytes(l->member_start) +
+           bytes(l->members) + l->rows.memory_bytes() + bytes(l->diagonal) + bytes(l->has_row);
   }
   return sum;
 }

@@ -26,7 +26,8 @@ struct LevelSize {
 template <class Real>
 class Multigrid {
  public:
-  /// Cells of the first coarse level have this edge; the domain bounds their number.
+  /// Cells of the first coarse level have this edge, at least as long as the near entries reach; the domain bounds
+  /// their number.
   Multigrid(const Box& domain_m, double cell_edge_m, int threads);
   ~Multigrid();
   Multigrid(Multigrid&&) noexcept;

@@ -26,10 +26,11 @@ bool is_at_surface(const Particles<Pack>& p, const OperatorConstants& c, std::si
 }  // namespace
 
 template <class Pack>
-PressureEquation<Pack>::PressureEquation(const OperatorConstants& constants, const Box& domain_m, int threads)
+PressureEquation<Pack>::PressureEquation(const OperatorConstants& constants, double near_radius_m, const Box& domain_m,
+                                         int threads)
     : c_(constants),
       threads_(threads),
-      multigrid_(domain_m, 2 * constants.parameters.particle_distance_m, threads),
+      multigrid_(domain_m, std::max(2 * constants.parameters.particle_distance_m, near_radius_m), threads),
       conjugate_gradients_(threads) {}
 
 /// Eq. (23) times -lambda0 n0 / (2 dim).

@@ -32,7 +32,8 @@ class PressureEquation {
  public:
   using Real = typename Lanes<Pack>::Real;
 
-  PressureEquation(const OperatorConstants& constants, const Box& domain_m, int threads);
+  /// `near_radius_m`: how far apart near neighbours are at most.
+  PressureEquation(const OperatorConstants& constants, double near_radius_m, const Box& domain_m, int threads);
 
   /// Solves for the pressures of walls and fluid from their number densities; the pressures at hand are the first
   /// guess. Negative ones become zero. Throws NotConverged.

@@ -42,8 +42,8 @@ std::vector<WallsScope> scopes_of(const std::vector<std::string>& walls) {
   return scopes;
 }
 
-/// Finished runs of a method; if any reach the window's end, those.
-std::vector<const AnalysedRun*> ended_runs(const ReportData& data, const std::string& solver, const WallsScope& scope) {
+std::vector<const AnalysedRun*> finished_runs(const ReportData& data, const std::string& solver,
+                                              const WallsScope& scope) {
   std::vector<const AnalysedRun*> runs;
   for (const AnalysedRun& run : data.runs)
     if (run.record.own && run.record.status() == "finished" && run.record.solver == solver && scope.has(run))

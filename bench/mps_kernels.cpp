@@ -24,7 +24,7 @@ struct State {
         solver(dynamic_cast<Solver&>(*run.solver)),
         threads(thread_count),
         index(solver.fluid_set().index.geometry()),
-        equation(solver.constants(), index.geometry().domain, thread_count),
+        equation(solver.constants(), solver.reach().near_radius_m, index.geometry().domain, thread_count),
         multigrid(index.geometry().domain, 2 * run.settings.l0_m, thread_count) {
     for (int k = 0; k < steps_before; ++k) solver.step();
     particles_ = solver.particles();

@@ -148,7 +148,7 @@ std::vector<WallsScope> alpha_scopes(const ReportData& data) {
 }
 
 BothMethods finest_of_both(const ReportData& data, const WallsScope& scope) {
-  const BothMethods whole = finest_pair(data, judged_runs(data, "mps"), judged_runs(data, "wcsph", scope));
+  BothMethods whole = finest_pair(data, judged_runs(data, "mps"), judged_runs(data, "wcsph", scope));
   if (!whole.mps.empty()) return whole;
   return finest_pair(data, with_judged_parameters(data, "mps", {}, finished_runs(data, "mps", {})),
                      with_judged_parameters(data, "wcsph", scope, finished_runs(data, "wcsph", scope)));

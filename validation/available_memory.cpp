@@ -74,7 +74,9 @@ std::optional<std::int64_t> group_available_bytes(const fs::path& root, const st
     const auto first = line.find(':');
     const auto second = line.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos) continue;
-    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+    std::string controllers = line.substr(first, second - first);  // ":cpu,memory"
+    controllers.front() = ',';
+    controllers += ',';
     const fs::path group = line.substr(second + 1);
     if (controllers == ",,") look_through(least, root, group, version_2);
     if (controllers.find(",memory,") != std::string::npos) look_through(least, root / "memory", group, version_1);

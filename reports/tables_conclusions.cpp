@@ -159,8 +159,7 @@ Table conclusions_table(const ReportData& data) {
   if (conclusions::alpha_scopes(data).size() > 1)
     table.notes.push_back(
         "A row that names walls is judged by the WCSPH runs with these walls alone; costs and steps by the least of "
-        "the "
-        "judged runs of all walls.");
+        "the judged runs of all walls.");
   return table;
 }
 

@@ -117,9 +117,8 @@ void add_pressure_oscillations(Table& table, const ReportData& data) {
   }
   table.notes.push_back(
       "Oscillations of pressures: noise, the root mean square of what a 20 ms running mean takes away, from 0.1 s "
-      "after "
-      "the measured arrival (what one impact leaves would hide the rest) to 1.5 s, up to where the paper's text sees "
-      "them; in the mean over the sensors that it shows.");
+      "after the measured arrival (what one impact leaves would hide the rest) to 1.5 s, up to where the paper's text "
+      "sees them; in the mean over the sensors that it shows.");
 }
 
 }  // namespace sluice::conclusions

@@ -63,13 +63,19 @@ bool lacks_snapshots(const json& manifest, const CampaignRun& run) {
   return text_of(manifest, "status") == "finished" && !fs::exists(run.directory / "snapshots.pvd");
 }
 
+/// What is not as asked for; empty for a run of today's inputs.
+std::string outdated_by(const json& manifest, const Case& c, const CampaignRun& run) {
+  const auto others = other_inputs(manifest, c, run.settings);
+  if (!others.empty()) return fmt::format("not as in its run.json: {}", fmt::join(others, ", "));
+  return lacks_snapshots(manifest, run) ? "without the snapshots asked for" : "";
+}
+
 }  // namespace
 
 CampaignState state_of(const Campaign& campaign, const CampaignRun& run) {
   const json manifest = manifest_of(run.directory);
   if (manifest.is_null()) return CampaignState::absent;
-  if (!other_inputs(manifest, campaign.case_of(run), run.settings).empty()) return CampaignState::outdated;
-  if (lacks_snapshots(manifest, run)) return CampaignState::outdated;
+  if (!outdated_by(manifest, campaign.case_of(run), run).empty()) return CampaignState::outdated;
   if (text_of(manifest, "status") == "finished") return CampaignState::finished;
   return fs::exists(run.directory / checkpoint_file) ? CampaignState::resumable : CampaignState::incomplete;
 }
@@ -81,11 +87,8 @@ bool can_be_reported(const Campaign& campaign, const CampaignRun& run) {
 }
 
 std::string why_outdated(const Campaign& campaign, const CampaignRun& run) {
-  if (state_of(campaign, run) != CampaignState::outdated) return "";
   const json manifest = manifest_of(run.directory);
-  const auto others = other_inputs(manifest, campaign.case_of(run), run.settings);
-  if (others.empty()) return "without the snapshots asked for";
-  return fmt::format("not as in its run.json: {}", fmt::join(others, ", "));
+  return manifest.is_null() ? "" : outdated_by(manifest, campaign.case_of(run), run);
 }
 
 std::string to_string(CampaignState state) {

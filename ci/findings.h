@@ -51,7 +51,8 @@ inline constexpr std::size_t acceptance_reach = 3;
 /// A later shift must exceed those accepted as scatter by this factor over their root mean square.
 inline constexpr double scatter_factor = 3;
 
-/// All series of the ledger, by key. Refers to the ledger, which must outlive the answer.
+/// All series of the ledger, by key. Refers to the ledger, which must outlive the answer; a finding refers to its
+/// series.
 std::vector<SeriesFindings> find_all(const Ledger& ledger, const ShiftRule& rule = {});
 
 std::string_view to_string(Verdict verdict);

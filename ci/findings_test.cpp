@@ -143,6 +143,41 @@ TEST(Findings, AValueThatNoLongerComesIsOpen) {
   EXPECT_TRUE(findings(ledger).empty()) << "it came back";
 }
 
+// As of another code, of which nobody knows what it owes: the column is not there, and no line of the ledger says so.
+TEST(Findings, AValueThatIsNotEvenWrittenAnyMoreIsOpen) {
+  Ledger ledger = steps("impulse_deviation", {{0, 0.01}}, 10);
+  for (int k = 0; k < 12; ++k) ledger.results.push_back(result(k, "impulse_deviation", "P2 wall", 0.02));
+  ledger.results.push_back(result(12, "finished", "", 0));  // a run that failed owes nothing
+  std::vector<SeriesFindings> all = find_all(ledger);
+  ASSERT_EQ(all.size(), 3u) << "finished, P1, P2";
+  ASSERT_EQ(all[1].findings.size(), 1u);
+  const Finding& missing = all[1].findings[0];
+  EXPECT_EQ(missing.verdict, Verdict::missing);
+  EXPECT_EQ(missing.state, State::open);
+  EXPECT_EQ(missing.first->commit, "c010");
+  EXPECT_EQ(count(all).open, 1u);
+  EXPECT_THAT(summary(all), AllOf(HasSubstr("impulse_deviation of P1 wall: +1.00 % to no value"),
+                                  HasSubstr("the run gives no such value any more")));
+  Acceptance known = acceptance_of(ledger, missing);
+  known.series = all[1].series.key.id();
+  ledger.acceptances.push_back(known);
+  all = find_all(ledger);
+  EXPECT_EQ(all[1].findings.at(0).state, State::accepted);
+  ledger.results.push_back(result(13, "impulse_deviation", "P1 wall", 0.01));
+  ledger.results.push_back(result(13, "impulse_deviation", "P2 wall", 0.02));
+  EXPECT_TRUE(findings(ledger).empty()) << "it came back";
+}
+
+// What is measured for the first time is not missing before.
+TEST(Findings, ANewSensorIsNotMissingInOlderRuns) {
+  Ledger ledger = steps("impulse_deviation", {{0, 0.01}}, 10);
+  for (int k = 5; k < 10; ++k) ledger.results.push_back(result(k, "impulse_deviation", "P2 wall", 0.02));
+  for (const SeriesFindings& found : find_all(ledger)) {
+    EXPECT_TRUE(found.findings.empty());
+    EXPECT_TRUE(found.series.absent.empty());
+  }
+}
+
 TEST(Findings, OfAMetricWithoutAlarmIsANote) {
   Ledger ledger;
   std::mt19937_64 random(1);

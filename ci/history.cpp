@@ -4,11 +4,51 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "validation/file_hash.h"
 
 namespace sluice::ci {
+namespace {
+
+using KindOfRun = std::tuple<std::string, std::string, std::string>;  // case, solver, parameters
+/// One result of every run of a kind, by date and the run's name.
+using RunsOfAKind = std::map<std::pair<std::string, std::string>, const Result*>;
+
+/// Whether a metric is what every run gives that comes to its end.
+bool is_owed(const std::string& metric) {
+  return kind_of(metric).family == Family::accuracy && metric != "finished";
+}
+
+std::map<KindOfRun, RunsOfAKind> runs_by_kind(const Ledger& ledger) {
+  std::map<KindOfRun, RunsOfAKind> all;
+  for (const Result& result : ledger.results)
+    if (is_owed(result.metric))
+      all[{result.case_name, result.solver, result.parameters.dump()}].emplace(std::pair(result.date, result.run),
+                                                                               &result);
+  return all;
+}
+
+/// Another code's sensor may be gone from its files, and a metric from our program: nothing is written of it then.
+void add_absent(MetricSeries& series, const RunsOfAKind& runs) {
+  std::set<std::pair<std::string, std::string>> present;
+  for (const Result* point : series.points) present.emplace(point->date, point->run);
+  for (auto at = runs.upper_bound(*present.begin()); at != runs.end(); ++at) {
+    if (present.contains(at->first)) continue;
+    auto absent = std::make_shared<Result>(*at->second);
+    absent->metric = series.key.metric;
+    absent->of = series.key.of;
+    absent->unit = series.unit;
+    absent->value.reset();
+    absent->reason = "the run gives no such value any more";
+    series.points.push_back(absent.get());
+    series.absent.push_back(std::move(absent));
+  }
+}
+
+}  // namespace
 
 bool SeriesKey::operator<(const SeriesKey& other) const {
   const auto fields = [](const SeriesKey& k) {
@@ -54,8 +94,10 @@ std::vector<MetricSeries> series_of(const Ledger& ledger) {
     series.unit = result.unit;
     series.points.push_back(&result);
   }
+  const std::map<KindOfRun, RunsOfAKind> runs = runs_by_kind(ledger);
   std::vector<MetricSeries> all;
   for (auto& [key, series] : by_key) {
+    if (is_owed(key.metric)) add_absent(series, runs.at({key.case_name, key.solver, key.parameters}));
     std::stable_sort(series.points.begin(), series.points.end(),
                      [](const Result* a, const Result* b) { return a->date < b->date; });
     all.push_back(std::move(series));

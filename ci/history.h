@@ -1,6 +1,7 @@
 // The ledger as series: one metric of one kind of run, in the order of the nights.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,14 @@ SeriesKey key_of(const Result& result);
 struct MetricSeries {
   SeriesKey key;
   std::string unit;
-  std::vector<const Result*> points;  ///< by date, equal dates as in the file; values may be missing
+  std::vector<const Result*> points;                  ///< by date, equal dates as in the file; values may be missing
+  std::vector<std::shared_ptr<const Result>> absent;  ///< those of the points that no line of the ledger has
 
   const MetricKind& kind() const { return kind_of(key.metric); }
 };
 
-/// All series of a ledger, by key. Points refer to the ledger's results: it must outlive them.
+/// All series of a ledger, by key. A run that came to its end without an accuracy that an earlier one of its kind gave
+/// is a point without a value. Points refer to the ledger's results: it must outlive them.
 std::vector<MetricSeries> series_of(const Ledger& ledger);
 
 }  // namespace sluice::ci

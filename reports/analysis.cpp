@@ -195,10 +195,11 @@ std::vector<std::string> ReportData::headline_sensors() const {
   return names.empty() ? sensors(SensorKind::force) : names;
 }
 
-ReportData analyse(const std::vector<std::filesystem::path>& run_directories) {
+ReportData analyse(const std::vector<std::filesystem::path>& run_directories, const std::filesystem::path& bands) {
   std::vector<RunRecord> records = read_runs(run_directories);
   ReportData data;
   data.the_case = case_of(records);
+  if (!bands.empty()) add_bands(data.the_case, bands);
   data.window = {data.the_case.window.start_s, data.the_case.window.end_s};
   data.measured = Measurements::load(data.the_case);
   for (RunRecord& record : records) {

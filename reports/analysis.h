@@ -73,9 +73,9 @@ struct ReportData {
 /// sensor's or quantity's.
 std::optional<std::string> model_of(const std::string& column, const CaseSensor& sensor);
 
-/// Reads the runs and compares them. Throws std::runtime_error when no run is given, a run cannot be read, the runs are
-/// of several cases, or the case is unknown.
-ReportData analyse(const std::vector<std::filesystem::path>& run_directories);
+/// Reads the runs and compares them; `bands`: a file of add_bands(), or none. Throws std::runtime_error when no run is
+/// given, a run or the bands cannot be read, the runs are of several cases, or the case is unknown.
+ReportData analyse(const std::vector<std::filesystem::path>& run_directories, const std::filesystem::path& bands = {});
 
 /// What this run has set otherwise than the case, by name; without alpha, which has a place of its own everywhere.
 /// Empty for other codes.

@@ -19,7 +19,8 @@ std::string row_range(const AcceptanceRow& row) {
     out += fmt::format(", l0 {:g} … {:g} mm", 1000 * row.l0_min_m, 1000 * row.l0_max_m);
   else if (bounded)
     out += fmt::format(", l0 ≤ {:g} mm", 1000 * row.l0_max_m);
-  return row.alpha ? out + fmt::format(", α = {}", shortest(*row.alpha)) : out;
+  if (row.alpha) out += fmt::format(", α = {}", shortest(*row.alpha));
+  return row.file.empty() ? out : fmt::format("{} (bands of {})", out, row.file);
 }
 
 std::string row_quantity(const AcceptanceRow& row) {
@@ -74,11 +75,9 @@ void add_acceptance_notes(Table& table, const ReportData& data, int rows_elsewhe
   for (const AnalysedRun& run : data.runs)
     if (std::none_of(run.acceptance.begin(), run.acceptance.end(), speaks))
       unjudged += (unjudged.empty() ? "" : ", ") + run.key;
-  if (!unjudged.empty())
-    table.notes.push_back("The case sets no bounds for " + unjudged + ": not applicable throughout.");
+  if (!unjudged.empty()) table.notes.push_back("There are no bounds for " + unjudged + ": not applicable throughout.");
   if (rows_elsewhere > 0)
-    table.notes.push_back(
-        fmt::format("{} more rows of the case apply to none of these runs and are left out.", rows_elsewhere));
+    table.notes.push_back(fmt::format("{} more rows apply to none of these runs and are left out.", rows_elsewhere));
 }
 
 }  // namespace
@@ -86,7 +85,7 @@ void add_acceptance_notes(Table& table, const ReportData& data, int rows_elsewhe
 Table acceptance_matrix(const ReportData& data) {
   Table table;
   table.name = "acceptance";
-  table.caption = "Acceptance rows of the case, evaluated for each run";
+  table.caption = "Acceptance rows, evaluated for each run";
   table.columns = {{"Quantity", "quantity", false}, {"Bound", "bound", false}, {"Why this bound", "remark", false}};
   const std::vector<const AnalysedRun*> runs = judged_runs(data);
   for (const AnalysedRun* run : runs) table.columns.push_back({run->key, run->key});

@@ -161,6 +161,14 @@ bool all_passed(const std::vector<AcceptanceCheck>& checks) {
   return any;
 }
 
+std::string verdict_text(const std::vector<AcceptanceCheck>& checks) {
+  if (all_passed(checks)) return "all bands hold";
+  const bool missed = std::any_of(checks.begin(), checks.end(), [](const AcceptanceCheck& check) {
+    return check.verdict == AcceptanceVerdict::fail;
+  });
+  return missed ? "A BAND IS MISSED" : "A BAND COULD NOT BE JUDGED";
+}
+
 std::string window_text(const TimeWindow& window) {
   return fmt::format("{:g} .. {:g} s", window.start_s, window.end_s);
 }

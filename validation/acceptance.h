@@ -43,6 +43,9 @@ std::vector<AcceptanceCheck> check_acceptance(const Case& c, const RunRecord& ru
 /// True when at least one row applies and every applicable row passes.
 bool all_passed(const std::vector<AcceptanceCheck>& checks);
 
+/// "all bands hold", or what is amiss.
+std::string verdict_text(const std::vector<AcceptanceCheck>& checks);
+
 /// "impulse_deviation P1 wall" or "impulse_deviation F 0.3 .. 1.3 s", and a value or bound for people ("+4.0 %", "+15
 /// ms", "3").
 std::string acceptance_name(const AcceptanceRow& row);

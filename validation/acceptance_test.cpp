@@ -119,6 +119,33 @@ TEST_F(AcceptanceTest, ImpulseOfAScaledPulseDeviatesByTheScale) {
   EXPECT_EQ(check(row + "0.04").verdict, AcceptanceVerdict::fail);
 }
 
+TEST_F(AcceptanceTest, BandsOfTheirOwnSpeakOfSolversThatTheCaseDoesNotKnow) {
+  Case c = parse_case(case_text(R"(  { metric = "lost_through_walls", upper = 0.0 },)"), "pulse.toml");
+  c.acceptance.clear();
+  c.measured = directory / c.measured;
+  const fs::path bands = directory / "bands.toml";
+  std::ofstream(bands) << R"([[acceptance]]
+solver = "mycode"
+rows = [ { metric = "impulse_deviation", sensor = "P1", within = 0.1 } ]
+[[acceptance]]
+solver = "mycode"
+walls = "ghosts"
+alpha = 0.02
+l0_m = [0.01, 0.02]
+rows = [ { metric = "peak_deviation", sensor = "P1", within = 0.1 } ]
+)";
+  add_bands(c, bands);
+  const auto checks = check_acceptance(c, record({{"solver", "mycode"}, {"walls", ""}}), Measurements::load(c));
+  ASSERT_EQ(checks.size(), 2u);
+  EXPECT_EQ(checks[0].verdict, AcceptanceVerdict::pass) << "any walls, alpha and l0";
+  EXPECT_EQ(checks[0].row.file, bands.string());
+  EXPECT_EQ(checks[0].row.line, 3);
+  EXPECT_EQ(checks[1].verdict, AcceptanceVerdict::not_applicable);
+  const auto ghosts = record({{"solver", "mycode"}, {"walls", "ghosts"}, {"alpha", 0.02}, {"l0_m", 0.02}});
+  EXPECT_EQ(check_acceptance(c, ghosts, Measurements::load(c)).at(1).verdict, AcceptanceVerdict::pass);
+  EXPECT_EQ(check_acceptance(c, record(), Measurements::load(c)).at(0).verdict, AcceptanceVerdict::not_applicable);
+}
+
 TEST_F(AcceptanceTest, ArrivalOfALatePulseDiffersByTheLag) {
   write_run(1.0, 0.03);
   const std::string row = R"(metric = "arrival_difference_s", sensor = "P1", model = "wall", within = )";

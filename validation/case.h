@@ -114,7 +114,8 @@ struct AcceptanceRow {
   double upper = 0;
   std::optional<TimeWindow> window{};  ///< of this comparison, where it is not the sensor's
   std::string remark;
-  int line = 0;  ///< in the case file
+  int line = 0;      ///< in the case file, or in `file`
+  std::string file;  ///< of add_bands(); empty: the case's own
 };
 
 /// Names of the metrics that acceptance rows can use, with what each needs.
@@ -235,6 +236,10 @@ SceneDescription scene_description(const Case& c, double l0_m, int wall_layers);
 /// Reads a case by name ("kleefsman": validation/cases/kleefsman.toml under case_directory()) or by the path of its
 /// TOML file. Throws CaseError; for an unknown name the message lists those that exist.
 Case load_case(const std::string& name_or_path);
+
+/// Adds the acceptance rows of a file of their own, for a solver that the case need not know: [[acceptance]] groups as
+/// in a case file, where `walls`, `alpha` and `l0_m` may be left out. Throws CaseError naming file, line and key.
+void add_bands(Case& c, const std::filesystem::path& file);
 
 /// The absolute path of a case that is none of the project's own; empty for those, which are found by their names.
 std::string outside_case_file(const Case& c);

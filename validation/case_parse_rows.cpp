@@ -63,6 +63,24 @@ AcceptanceRow parse_acceptance_row(TomlReader& reader, AcceptanceRow row, const 
   return row;
 }
 
+/// The rest of a group: its alpha and its rows.
+void add_rows(TomlReader& reader, AcceptanceRow common, Case& c) {
+  common.alpha = reader.optional_number("alpha");
+  for (TomlReader& row : reader.tables("rows")) c.acceptance.push_back(parse_acceptance_row(row, common, c));
+  reader.finish();
+}
+
+/// A group of a file of bands, for any solver.
+void parse_bands_group(TomlReader& reader, const std::string& file, Case& c) {
+  AcceptanceRow common;
+  common.file = file;
+  common.solver = reader.text("solver");
+  common.walls = reader.text_or("walls", "");
+  common.l0_max_m = HUGE_VAL;
+  if (reader.has("l0_m")) std::tie(common.l0_min_m, common.l0_max_m) = reader.range("l0_m");
+  add_rows(reader, common, c);
+}
+
 PublishedImpulse parse_published_impulse(TomlReader& reader, const Case& c) {
   PublishedImpulse p;
   p.sensor = one_of(reader, "sensor", names_of(c.sensors));
@@ -125,10 +143,8 @@ void parse_acceptance_group(TomlReader& reader, Case& c) {
   AcceptanceRow common;
   common.solver = one_of(reader, "solver", names_of(c.solvers));
   if (reader.has("walls")) common.walls = one_of(reader, "walls", names_of(c.find_solver(common.solver)->walls));
-  common.alpha = reader.optional_number("alpha");
   std::tie(common.l0_min_m, common.l0_max_m) = reader.range("l0_m");
-  for (TomlReader& row : reader.tables("rows")) c.acceptance.push_back(parse_acceptance_row(row, common, c));
-  reader.finish();
+  add_rows(reader, common, c);
 }
 
 void parse_published(TomlReader reader, Case& c) {
@@ -151,3 +167,15 @@ void parse_published(TomlReader reader, Case& c) {
 }
 
 }  // namespace sluice::case_parse
+
+namespace sluice {
+
+void add_bands(Case& c, const std::filesystem::path& file) {
+  const std::string name = file.string();
+  const toml::table table = parse_toml(read_text(file, "give a TOML file with [[acceptance]] groups"), name);
+  TomlReader root(table, name);
+  for (TomlReader& group : root.tables("acceptance")) case_parse::parse_bands_group(group, name, c);
+  root.finish();
+}
+
+}  // namespace sluice

@@ -177,6 +177,50 @@ TEST_F(CommandLine, CompareWarnsOfUnitsThatAreOffByAThousand) {
                                 HasSubstr("times the measured value: is its unit m?")));
 }
 
+// A pressure of another code, flat at 1000 Pa over the whole window.
+void write_flat_run(const fs::path& run) {
+  fs::create_directories(run);
+  std::ofstream(run / "run.json") << R"({ "case": "kleefsman", "solver": "mycode", "l0_m": 0.02 })";
+  std::ofstream probes(run / "probes.csv");
+  probes << "t_s,P1_Pa\n";
+  for (int k = 0; k <= 6000; k += 2) probes << fmt::format("{},1000\n", 0.001 * k);
+}
+
+void write_bands(const fs::path& file, const std::string& solver, const std::string& band) {
+  std::ofstream(file) << fmt::format(R"([[acceptance]]
+solver = "{}"
+rows = [ {{ metric = "impulse_deviation", sensor = "P1", {}, remark = "ours" }} ]
+)",
+                                     solver, band);
+}
+
+TEST_F(CommandLine, CompareHoldsAnotherCodeAgainstBandsOfItsOwn) {
+  write_flat_run(directory / "mine");
+  const fs::path bands = directory / "bands.toml";
+  const std::string command =
+      fmt::format("compare {0}/mine --bands {0}/bands.toml --no-figures --out {0}/report", directory.string());
+  write_bands(bands, "mycode", "within = 0.9");
+  Answer answer = sluice(command);
+  EXPECT_EQ(answer.exit_code, 0) << answer.err;
+  EXPECT_THAT(answer.out,
+              AllOf(HasSubstr("all bands hold"), HasSubstr("impulse_deviation P1"), HasSubstr("index.html")));
+  EXPECT_THAT(contents(directory / "report" / "report.md"), HasSubstr("mycode (bands of "));
+  write_bands(bands, "mycode", "lower = 0.9");
+  answer = sluice(command);
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.out, AllOf(HasSubstr("FAIL"), HasSubstr("A BAND IS MISSED"), HasSubstr("index.html")));
+  write_bands(bands, "another", "within = 0.9");
+  answer = sluice(command);
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.out, HasSubstr("no row applies to any of these runs (it names solver another; these are mycode)"));
+  std::ofstream(bands) << "[[acceptance]]\nsolver = \"mycode\"\nrows = [ { metric = \"impulse\", within = 1 } ]\n";
+  answer = sluice(command);
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.err, AllOf(HasSubstr("bands.toml:3: "), HasSubstr("unknown metric `impulse`")));
+  fs::remove(bands);
+  EXPECT_THAT(sluice(command).err, HasSubstr("bands.toml: cannot be read"));
+}
+
 TEST_F(CommandLine, CompareRefusesAnotherCase) {
   write_gauge(directory, "m");
   const Answer answer =

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstddef>
 #include <cstdio>
@@ -10,6 +11,7 @@
 
 #include "reports/analysis.h"
 #include "reports/report.h"
+#include "validation/acceptance.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/usage_error.h"
 #include "validation/foreign.h"
@@ -26,6 +28,7 @@ struct CompareArguments {
   std::vector<std::string> sources;
   std::string case_name;
   std::string out = "reports/out";
+  std::string bands;
   ReportOptions options;
   bool no_figures = false;
 };
@@ -61,6 +64,36 @@ void tell_warnings(const ReportData& data) {
   }
 }
 
+/// A name that is written otherwise than in the runs is the likely reason.
+void tell_unjudged(const ReportData& data, const std::string& bands) {
+  std::set<std::string> named;
+  std::set<std::string> there;
+  for (const AcceptanceRow& row : data.the_case.acceptance)
+    if (row.file == bands) named.insert(printable(row.solver));
+  for (const AnalysedRun& run : data.runs) there.insert(printable(run.record.solver));
+  tell(stdout, fmt::format("{}: no row applies to any of these runs (it names solver {}; these are {})\n", bands,
+                           fmt::join(named, ", "), fmt::join(there, ", ")));
+}
+
+/// The rows of a file of bands on every run that they speak of. False where one is not passed, or where they speak of
+/// none.
+bool print_bands(const ReportData& data, const std::string& bands) {
+  bool passed = true;
+  bool judged = false;
+  for (const AnalysedRun& run : data.runs) {
+    std::vector<AcceptanceCheck> checks;
+    for (const AcceptanceCheck& check : run.acceptance)
+      if (check.row.file == bands && check.verdict != AcceptanceVerdict::not_applicable) checks.push_back(check);
+    if (checks.empty()) continue;
+    judged = true;
+    passed = passed && all_passed(checks);
+    tell(stdout, fmt::format("{}: {}\n{}{}\n", printable(run.record.path.string()), printable(run.record.label()),
+                             acceptance_table(checks), verdict_text(checks)));
+  }
+  if (!judged) tell_unjudged(data, bands);
+  return passed && judged;
+}
+
 int compare(CompareArguments& arguments) {
   const std::vector<fs::path> directories = run_directories(arguments);
   if (!arguments.case_name.empty()) {
@@ -70,11 +103,12 @@ int compare(CompareArguments& arguments) {
         throw UsageError(fmt::format("{}: is of the case {}, not {}", directory.string(), run.case_name, wanted));
   }
   arguments.options.figures = !arguments.no_figures;
-  const ReportData data = analyse(directories);
+  const ReportData data = analyse(directories, arguments.bands);
   tell_warnings(data);
   write_analysed(data, arguments.out, arguments.options);
-  fmt::print("report: {}\n", (fs::path(arguments.out) / "index.html").string());
-  return 0;
+  const bool passed = arguments.bands.empty() || print_bands(data, arguments.bands);
+  tell(stdout, fmt::format("report: {}\n", (fs::path(arguments.out) / "index.html").string()));
+  return passed ? 0 : 1;
 }
 
 }  // namespace
@@ -90,12 +124,17 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->required();
   command->add_option("--case", arguments->case_name, "Refuse sources of any other case");
   command->add_option("--out", arguments->out, "Directory of the report")->capture_default_str();
+  command->add_option(
+      "--bands", arguments->bands,
+      "Acceptance rows of a code's own (a .toml file with [[acceptance]] groups, as the case files have):"
+      "\nexit code 1 when one is not passed");
   command->add_option("--title", arguments->options.title, "Title (default: the case's)");
   command->add_flag("--no-figures", arguments->no_figures, "Tables and text only (gnuplot is not needed)");
   command->footer(
       "Examples:\n"
       "  sluice compare my-run runs/kleefsman-* --case kleefsman\n"
-      "  sluice compare gauges.toml --out reports/mine");
+      "  sluice compare gauges.toml --out reports/mine\n"
+      "  sluice compare my-run --bands bands.toml --no-figures");
   command->callback([arguments, &exit_code] { exit_code = compare(*arguments); });
 }
 

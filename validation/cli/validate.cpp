@@ -89,14 +89,6 @@ std::vector<std::string> walls_in_order(const SolverOption& solver) {
   return names;
 }
 
-std::string verdict(const std::vector<AcceptanceCheck>& checks) {
-  if (all_passed(checks)) return "all bands hold";
-  const bool missed = std::any_of(checks.begin(), checks.end(), [](const AcceptanceCheck& check) {
-    return check.verdict == AcceptanceVerdict::fail;
-  });
-  return missed ? "A BAND IS MISSED" : "A BAND COULD NOT BE JUDGED";
-}
-
 bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
   const Measurements measured = Measurements::load(c);
   for (const std::string& problem : measured.problems())
@@ -115,8 +107,8 @@ bool print_acceptance(const Case& c, const std::vector<fs::path>& directories) {
       continue;
     }
     judged = true;
-    tell(stdout,
-         fmt::format("{}: {}\n{}{}\n", directory.string(), record.label(), acceptance_table(checks), verdict(checks)));
+    tell(stdout, fmt::format("{}: {}\n{}{}\n", directory.string(), record.label(), acceptance_table(checks),
+                             verdict_text(checks)));
     passed = passed && all_passed(checks);
   }
   if (!judged) tell(stdout, "no acceptance row applies to any of these runs\n");

@@ -15,40 +15,76 @@ namespace {
 
 constexpr double much = 0.01;
 
-/// How long a box is along one axis.
-struct Side {
-  std::string box;  ///< "fluid[0]", as the manifest has it
-  char axis = 'x';
+/// What a flow depends on: a side of a box, the water's way to a body, the room behind the body.
+struct Measure {
+  std::string box;   ///< "fluid[0]", as the manifest has it
+  std::string what;  ///< "high", "from fluid[0]"
   double length_m = 0;
 };
 
-void add_sides(std::vector<Side>& sides, const std::string& name, const Box& box,
-               const std::vector<FittedLength>& fitted) {
+Box fitted_box(const std::string& name, const Box& box, const std::vector<FittedLength>& fitted) {
   const auto at = [&](const char* end, char axis, double nominal_m) {
     const std::string full = fmt::format("{}.{}.{}", name, end, axis);
     const auto found =
         std::find_if(fitted.begin(), fitted.end(), [&](const auto& length) { return length.name == full; });
     return found == fitted.end() ? nominal_m : found->fitted_m;
   };
-  const auto add = [&](char axis, double lower_m, double upper_m) {
-    sides.push_back({name, axis, at("upper", axis, upper_m) - at("lower", axis, lower_m)});
+  const auto corner = [&](const char* end, const Vec3d& nominal) {
+    return Vec3d{at(end, 'x', nominal.x), at(end, 'y', nominal.y), at(end, 'z', nominal.z)};
   };
-  add('x', box.lower.x, box.upper.x);
-  add('y', box.lower.y, box.upper.y);
-  add('z', box.lower.z, box.upper.z);
+  return {corner("lower", box.lower), corner("upper", box.upper)};
+}
+
+void add_sides(std::vector<Measure>& measures, const std::string& name, const Box& box) {
+  const Vec3d sides = box.upper - box.lower;
+  measures.push_back({name, "long", sides.x});
+  measures.push_back({name, "wide", sides.y});
+  measures.push_back({name, "high", sides.z});
+}
+
+struct NamedBox {
+  std::string name;
+  Box drawn;
+  Box fitted;
+};
+
+/// Along the horizontal axes on which the water and a body are apart.
+void add_ways(std::vector<Measure>& measures, const NamedBox& water, const NamedBox& body, const Box& tank) {
+  for (const auto axis : {&Vec3d::x, &Vec3d::y}) {
+    const bool is_behind = body.drawn.upper.*axis <= water.drawn.lower.*axis;  // the water runs down the axis
+    const bool is_before = body.drawn.lower.*axis >= water.drawn.upper.*axis;
+    if (!is_behind && !is_before) continue;
+    const Box& from = water.fitted;
+    const Box& to = body.fitted;
+    measures.push_back({body.name, "from " + water.name,
+                        is_behind ? from.lower.*axis - to.upper.*axis : to.lower.*axis - from.upper.*axis});
+    measures.push_back({body.name, "from the wall behind it",
+                        is_behind ? to.lower.*axis - tank.lower.*axis : tank.upper.*axis - to.upper.*axis});
+  }
 }
 
 /// Of all fluid, and of bodies that are not plates: those are as thick as three particles. Empty where the run does not
 /// say what it fitted.
-std::vector<Side> fitted_sides(const Case& c, const RunRecord& run) {
-  std::vector<Side> sides;
+std::vector<Measure> fitted_measures(const Case& c, const RunRecord& run) {
+  std::vector<Measure> measures;
   const auto fitted = fitted_lengths(run);
-  if (!fitted) return sides;
-  for (std::size_t k = 0; k < c.fluid.size(); ++k) add_sides(sides, fmt::format("fluid[{}]", k), c.fluid[k], *fitted);
+  if (!fitted) return measures;
+  std::vector<NamedBox> waters;
+  for (std::size_t k = 0; k < c.fluid.size(); ++k) {
+    const std::string name = fmt::format("fluid[{}]", k);
+    waters.push_back({name, c.fluid[k], fitted_box(name, c.fluid[k], *fitted)});
+    add_sides(measures, name, waters.back().fitted);
+  }
+  const Box tank = fitted_box("tank", c.tank, *fitted);
   const std::vector<Obstacle> obstacles = placed_obstacles(c, run);
-  for (std::size_t k = 0; k < obstacles.size(); ++k)
-    if (!obstacles[k].thin) add_sides(sides, called(obstacles[k], k), obstacles[k].box, *fitted);
-  return sides;
+  for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    if (obstacles[k].thin) continue;
+    const std::string name = called(obstacles[k], k);
+    const NamedBox body{name, c.obstacles[k].box, fitted_box(name, obstacles[k].box, *fitted)};
+    add_sides(measures, name, body.fitted);
+    for (const NamedBox& water : waters) add_ways(measures, water, body, tank);
+  }
+  return measures;
 }
 
 }  // namespace
@@ -69,21 +105,19 @@ std::optional<std::vector<FittedLength>> fitted_lengths(const RunRecord& run) {
 }
 
 std::string differing_geometry(const ReportData& data, const ResolutionSeries& series) {
-  std::vector<std::vector<Side>> runs;
+  std::vector<std::vector<Measure>> runs;
   for (const AnalysedRun* run : series.runs)
-    if (auto sides = fitted_sides(data.the_case, run->record); !sides.empty()) runs.push_back(std::move(sides));
+    if (auto measures = fitted_measures(data.the_case, run->record); !measures.empty())
+      runs.push_back(std::move(measures));
   std::string out;
   for (std::size_t k = 0; runs.size() > 1 && k < runs.front().size(); ++k) {
     const auto [least, most] = std::minmax_element(
         runs.begin(), runs.end(), [&](const auto& a, const auto& b) { return a[k].length_m < b[k].length_m; });
     if ((*most)[k].length_m <= (1 + much) * (*least)[k].length_m) continue;
     std::string lengths;
-    for (const auto& sides : runs) lengths += (lengths.empty() ? "" : ", ") + significant(sides[k].length_m, 3);
-    const Side& side = runs.front()[k];
-    out += fmt::format("{}{} is {} m {}", out.empty() ? "" : "; ", side.box, lengths,
-                       side.axis == 'x'   ? "long"
-                       : side.axis == 'y' ? "wide"
-                                          : "high");
+    for (const auto& measures : runs) lengths += (lengths.empty() ? "" : ", ") + significant(measures[k].length_m, 3);
+    const Measure& measure = runs.front()[k];
+    out += fmt::format("{}{} is {} m {}", out.empty() ? "" : "; ", measure.box, lengths, measure.what);
   }
   return out;
 }

@@ -13,9 +13,10 @@ namespace sluice {
 /// Lengths that a run had to fit; missing where its manifest does not say.
 std::optional<std::vector<FittedLength>> fitted_lengths(const RunRecord& run);
 
-/// Fluid and bodies whose fitted sides differ between runs of a series by more than a hundredth, so that their values
-/// differ for that reason as well: "fluid[0] is 0.570, 0.540, 0.540 m high". Empty where none does, and of runs that do
-/// not say what they fitted.
+/// Fitted sides of fluid and bodies, the water's way to a body and the room behind it, where they differ between runs
+/// of a series by more than a hundredth, so that values differ for that reason as well: "fluid[0] is 0.570, 0.540,
+/// 0.540 m high; obstacle[0] is 1.20, 1.16, 1.17 m from fluid[0]". Empty where none does, and of runs that do not say
+/// what they fitted.
 std::string differing_geometry(const ReportData& data, const ResolutionSeries& series);
 
 }  // namespace sluice

@@ -243,6 +243,28 @@ TEST(ReportTables, NoOrderWhereTheLatticeChangesTheGeometry) {
   EXPECT_TRUE(cell(resolution_table(analyse(dirs)), "P1 impulse", "observed_order").text.starts_with("order 2.0"));
 }
 
+TEST(ReportTables, NoOrderWhereTheLatticeMovesTheBox) {
+  std::vector<fs::path> dirs;
+  for (const auto& [l0_m, front_m] : {std::pair(0.04, 0.80), std::pair(0.02, 0.82), std::pair(0.01, 0.82)}) {
+    dirs.push_back(fresh("moved_" + std::to_string(dirs.size())));
+    synthetic::write_run(dirs.back(), {.l0_m = l0_m, .scale = 1 + 100 * l0_m * l0_m});
+    const auto fitted = [](const char* name, double nominal_m, double fitted_m) {
+      return nlohmann::json{{"name", name}, {"nominal_m", nominal_m}, {"fitted_m", fitted_m}};
+    };
+    test_files::put_in_manifest(
+        dirs.back(),
+        {{"fitted_lengths",
+          {fitted("obstacle[0].lower.x", 0.6635, front_m - 0.16), fitted("obstacle[0].upper.x", 0.8245, front_m)}}});
+  }
+  const Table table = resolution_table(analyse(dirs));
+  EXPECT_EQ(cell(table, "P1 impulse", "observed_order").text, "none: geometries differ");
+  EXPECT_NE(table.notes.front().find(
+                "obstacle[0] is 1.19, 1.17, 1.17 m from fluid[0]; obstacle[0] is 0.640, 0.660, 0.660 m from the wall "
+                "behind it"),
+            std::string::npos)
+      << table.notes.front();
+}
+
 TEST(ReportTables, TheFinestRunThatHasAValueStandsBesideItsUncertainty) {
   std::vector<fs::path> dirs;
   for (const double l0_m : {0.04, 0.02, 0.01}) {

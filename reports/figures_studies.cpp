@@ -32,7 +32,7 @@ PlotPanel resolution_panel(const ReportData& data, const ResolutionSeries& serie
   int style = 0;
   for (const ResolutionQuantity& quantity : resolution_quantities(data, series)) {
     const bool percent = quantity.name.ends_with("[%]");
-    if (quantity.shows_value != values || (!values && !percent)) continue;
+    if (quantity.shows_value != values || (!values && !percent) || !quantity.model.empty()) continue;
     PlotCurve curve;
     curve.label = values ? quantity.name : quantity.name.substr(0, quantity.name.size() - 4);
     curve.style = style++;

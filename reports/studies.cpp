@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 
 #include "reports/text.h"
@@ -211,12 +212,13 @@ std::vector<RunGroup> method_groups(const ReportData& data, std::size_t limit) {
 
 namespace {
 
+/// `model`: of the reading; empty for the primary one.
 template <class Measure>
 ResolutionQuantity quantity(const std::string& name, int decimals, const ResolutionSeries& series,
-                            const std::string& sensor, Measure measure) {
-  ResolutionQuantity out{name, decimals, {}, false};
+                            const std::string& sensor, Measure measure, const std::string& model = "") {
+  ResolutionQuantity out{name, decimals, {}, false, model};
   for (const AnalysedRun* run : series.runs) {
-    const SensorReading* reading = run->primary(sensor);
+    const SensorReading* reading = model.empty() ? run->primary(sensor) : run->find(sensor, model);
     if (reading == nullptr) continue;
     const std::pair<std::optional<double>, std::optional<double>> m = measure(reading->comparison);
     if (m.first && m.second) out.points.push_back({run->record.l0_m, *m.first, *m.second});
@@ -235,14 +237,29 @@ ResolutionQuantity value(const std::string& name, int decimals, const Resolution
   return out;
 }
 
+/// In which a sensor is read beside the primary reading.
+std::set<std::string> other_models(const ResolutionSeries& series, const std::string& sensor) {
+  std::set<std::string> models;
+  for (const AnalysedRun* run : series.runs)
+    for (const SensorReading* reading : run->of(sensor))
+      if (!reading->primary && !reading->warning_only && !reading->model.empty()) models.insert(reading->model);
+  return models;
+}
+
+void add_impulses(std::vector<ResolutionQuantity>& out, const ResolutionSeries& series, const std::string& sensor) {
+  const auto measure = [](const Comparison& c) {
+    return std::pair(c.impulse.simulated, scaled(c.impulse.deviation(), 100));
+  };
+  out.push_back(quantity(sensor + " impulse [%]", 1, series, sensor, measure));
+  for (const std::string& model : other_models(series, sensor))
+    out.push_back(quantity(fmt::format("{} impulse, {} [%]", sensor, model), 1, series, sensor, measure, model));
+}
+
 }  // namespace
 
 std::vector<ResolutionQuantity> resolution_quantities(const ReportData& data, const ResolutionSeries& series) {
   std::vector<ResolutionQuantity> out;
-  for (const std::string& sensor : data.headline_sensors())
-    out.push_back(quantity(sensor + " impulse [%]", 1, series, sensor, [](const Comparison& c) {
-      return std::pair(c.impulse.simulated, scaled(c.impulse.deviation(), 100));
-    }));
+  for (const std::string& sensor : data.headline_sensors()) add_impulses(out, series, sensor);
   if (!data.headline_sensors().empty()) {
     const std::string first = data.headline_sensors().front();
     out.push_back(quantity(first + " arrival [ms]", 0, series, first, [](const Comparison& c) {

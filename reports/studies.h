@@ -64,9 +64,10 @@ struct ResolutionQuantity {
   int decimals = 1;
   std::vector<ResolutionPoint> points;  ///< coarsest first; runs without the quantity are left out
   bool shows_value = false;             ///< the value is shown, not an error: nothing has to be measured for it
+  std::string model{};                  ///< of the readings; empty: the primary ones
 };
-/// Impulses of the headline sensors, arrival at the first of them, RMSE of every wave probe, and peak and impulse of
-/// every force as they are.
+/// Impulses of the headline sensors in every model, arrival at the first of them, RMSE of every wave probe, and peak
+/// and impulse of every force as they are.
 std::vector<ResolutionQuantity> resolution_quantities(const ReportData& data, const ResolutionSeries& series);
 
 /// (printed - printed experiment) / printed experiment of the paper's impulse, signed.

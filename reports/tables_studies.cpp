@@ -109,8 +109,8 @@ std::set<double, std::greater<>> particle_distances(const std::vector<Resolution
 Table resolution_table(const ReportData& data) {
   Table table;
   table.name = "resolution";
-  table.caption = data.has(SensorKind::force) ? "Errors and forces against the particle distance, primary readings"
-                                              : "Errors against the particle distance, primary readings";
+  table.caption = fmt::format("{} against the particle distance, primary readings unless another sensor model is named",
+                              data.has(SensorKind::force) ? "Errors and forces" : "Errors");
   table.columns = {{"Quantity", "quantity", false}};
   const std::vector<ResolutionSeries> all_series = resolution_series(data);
   const std::set<double, std::greater<>> distances = particle_distances(all_series);

@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "solvers/scene.h"
 #include "validation/campaign.h"
 
 namespace sluice {
@@ -42,6 +46,25 @@ TEST(CampaignFiles, AllOfThemCanBeRead) {
     ++files;
   }
   EXPECT_GE(files, 6);
+}
+
+/// An order needs one flow: what its particle distances were chosen for.
+TEST(ConvergenceCampaign, ComputesOneFlow) {
+  std::map<std::string, std::vector<double>> lengths_m;
+  for (const CampaignRun& run : load_campaign("validation/campaigns/convergence.toml", "runs", 1).runs) {
+    const Scene scene = build_scene(scene_description(load_case("kleefsman"), run.settings.l0_m, 1));
+    const Box& water = scene.fitted.fluid.at(0);
+    const Box& box = scene.fitted.obstacles.at(0).box;
+    for (const auto& [name, from, to] : {std::tuple("water", water.lower, water.upper), {"box", box.lower, box.upper}})
+      for (int axis = 0; axis < 3; ++axis)
+        lengths_m[fmt::format("{} {}", name, axis)].push_back(component(to - from, axis));
+    lengths_m["way"].push_back(water.lower.x - box.upper.x);
+    lengths_m["room behind"].push_back(box.lower.x - scene.fitted.tank.lower.x);
+  }
+  for (const auto& [name, all] : lengths_m) {
+    const auto [least, most] = std::minmax_element(all.begin(), all.end());
+    EXPECT_LE(*most, 1.01 * *least) << name;
+  }
 }
 
 TEST(PaperCampaign, IsComputedThePapersWay) {

@@ -14,21 +14,16 @@ namespace sluice::ci {
 namespace {
 
 using KindOfRun = std::tuple<std::string, std::string, std::string>;  // case, solver, parameters
+KindOfRun kind_of_run(const SeriesKey& key) {
+  return {key.case_name, key.solver, key.parameters};
+}
+
 /// One result of every run of a kind, by date and the run's name.
 using RunsOfAKind = std::map<std::pair<std::string, std::string>, const Result*>;
 
 /// Whether a metric is what every run gives that comes to its end.
 bool is_owed(const std::string& metric) {
   return kind_of(metric).family == Family::accuracy && metric != "finished";
-}
-
-std::map<KindOfRun, RunsOfAKind> runs_by_kind(const Ledger& ledger) {
-  std::map<KindOfRun, RunsOfAKind> all;
-  for (const Result& result : ledger.results)
-    if (is_owed(result.metric))
-      all[{result.case_name, result.solver, result.parameters.dump()}].emplace(std::pair(result.date, result.run),
-                                                                               &result);
-  return all;
 }
 
 /// Another code's sensor may be gone from its files, and a metric from our program: nothing is written of it then.
@@ -87,17 +82,18 @@ SeriesKey key_of(const Result& result) {
 
 std::vector<MetricSeries> series_of(const Ledger& ledger) {
   std::map<SeriesKey, MetricSeries> by_key;
+  std::map<KindOfRun, RunsOfAKind> runs;
   for (const Result& result : ledger.results) {
     SeriesKey key = key_of(result);
+    if (is_owed(key.metric)) runs[kind_of_run(key)].emplace(std::pair(result.date, result.run), &result);
     MetricSeries& series = by_key[key];
     series.key = std::move(key);
     series.unit = result.unit;
     series.points.push_back(&result);
   }
-  const std::map<KindOfRun, RunsOfAKind> runs = runs_by_kind(ledger);
   std::vector<MetricSeries> all;
   for (auto& [key, series] : by_key) {
-    if (is_owed(key.metric)) add_absent(series, runs.at({key.case_name, key.solver, key.parameters}));
+    if (is_owed(key.metric)) add_absent(series, runs.at(kind_of_run(key)));
     std::stable_sort(series.points.begin(), series.points.end(),
                      [](const Result* a, const Result* b) { return a->date < b->date; });
     all.push_back(std::move(series));

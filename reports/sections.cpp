@@ -139,11 +139,10 @@ void add_acceptance_section(std::vector<ReportSection>& sections, const ReportDa
   const AcceptanceCount count = count_acceptance(data);
   section.blocks.push_back(Paragraph{
       fmt::format("{} rows passed, {} failed, {} could not be evaluated.", count.passed, count.failed, count.missing)});
-  section.blocks.push_back(
-      hint("The bounds stand in the case file, which says of each group what it is: a target, or (at the quick tiers) "
-           "a band "
-           "around earlier results of the solvers here, for noticing change. A value on the bound passes. Bounds of "
-           "deviations are signed, (simulated − measured) / measured."));
+  section.blocks.push_back(hint(
+      "The bounds stand in the case file, which says of each group what it is: a target, or (at the quick tiers) "
+      "a band around earlier results of the solvers here, for noticing change; or in the file of bands that a group "
+      "names. A value on the bound passes. Bounds of deviations are signed, (simulated − measured) / measured."));
   section.blocks.push_back(acceptance_matrix(data));
   sections.push_back(std::move(section));
 }

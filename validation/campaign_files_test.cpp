@@ -51,8 +51,9 @@ TEST(CampaignFiles, AllOfThemCanBeRead) {
 /// An order needs one flow: what its particle distances were chosen for.
 TEST(ConvergenceCampaign, ComputesOneFlow) {
   std::map<std::string, std::vector<double>> lengths_m;
-  for (const CampaignRun& run : load_campaign("validation/campaigns/convergence.toml", "runs", 1).runs) {
-    const Scene scene = build_scene(scene_description(load_case("kleefsman"), run.settings.l0_m, 1));
+  const Campaign campaign = load_campaign("validation/campaigns/convergence.toml", "runs", 1);
+  for (const CampaignRun& run : campaign.runs) {
+    const Scene scene = build_scene(scene_description(campaign.case_of(run), run.settings.l0_m, 1));
     const Box& water = scene.fitted.fluid.at(0);
     const Box& box = scene.fitted.obstacles.at(0).box;
     for (const auto& [name, from, to] : {std::tuple("water", water.lower, water.upper), {"box", box.lower, box.upper}})

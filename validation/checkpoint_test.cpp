@@ -7,8 +7,6 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <csignal>
 #include <fstream>
 
 #include "solvers/state_archive.h"

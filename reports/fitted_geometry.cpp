@@ -16,7 +16,7 @@ namespace {
 constexpr double much = 0.01;
 
 /// What a flow depends on: a side of a box, the water's way to a body, the room behind the body.
-struct Measure {
+struct FlowLength {
   std::string box;   ///< "fluid[0]", as the manifest has it
   std::string what;  ///< "high", "from fluid[0]"
   double length_m = 0;
@@ -35,11 +35,11 @@ Box fitted_box(const std::string& name, const Box& box, const std::vector<Fitted
   return {corner("lower", box.lower), corner("upper", box.upper)};
 }
 
-void add_sides(std::vector<Measure>& measures, const std::string& name, const Box& box) {
+void add_sides(std::vector<FlowLength>& lengths, const std::string& name, const Box& box) {
   const Vec3d sides = box.upper - box.lower;
-  measures.push_back({name, "long", sides.x});
-  measures.push_back({name, "wide", sides.y});
-  measures.push_back({name, "high", sides.z});
+  lengths.push_back({name, "long", sides.x});
+  lengths.push_back({name, "wide", sides.y});
+  lengths.push_back({name, "high", sides.z});
 }
 
 struct NamedBox {
@@ -49,31 +49,31 @@ struct NamedBox {
 };
 
 /// Along the horizontal axes on which the water and a body are apart.
-void add_ways(std::vector<Measure>& measures, const NamedBox& water, const NamedBox& body, const Box& tank) {
+void add_ways(std::vector<FlowLength>& lengths, const NamedBox& water, const NamedBox& body, const Box& tank) {
   for (const auto axis : {&Vec3d::x, &Vec3d::y}) {
     const bool is_behind = body.drawn.upper.*axis <= water.drawn.lower.*axis;  // the water runs down the axis
     const bool is_before = body.drawn.lower.*axis >= water.drawn.upper.*axis;
     if (!is_behind && !is_before) continue;
     const Box& from = water.fitted;
     const Box& to = body.fitted;
-    measures.push_back({body.name, "from " + water.name,
-                        is_behind ? from.lower.*axis - to.upper.*axis : to.lower.*axis - from.upper.*axis});
-    measures.push_back({body.name, "from the wall behind it",
-                        is_behind ? to.lower.*axis - tank.lower.*axis : tank.upper.*axis - to.upper.*axis});
+    lengths.push_back({body.name, "from " + water.name,
+                       is_behind ? from.lower.*axis - to.upper.*axis : to.lower.*axis - from.upper.*axis});
+    lengths.push_back({body.name, "from the wall behind it",
+                       is_behind ? to.lower.*axis - tank.lower.*axis : tank.upper.*axis - to.upper.*axis});
   }
 }
 
 /// Of all fluid, and of bodies that are not plates: those are as thick as three particles. Empty where the run does not
 /// say what it fitted.
-std::vector<Measure> fitted_measures(const Case& c, const RunRecord& run) {
-  std::vector<Measure> measures;
+std::vector<FlowLength> flow_lengths(const Case& c, const RunRecord& run) {
+  std::vector<FlowLength> lengths;
   const auto fitted = fitted_lengths(run);
-  if (!fitted) return measures;
+  if (!fitted) return lengths;
   std::vector<NamedBox> waters;
   for (std::size_t k = 0; k < c.fluid.size(); ++k) {
     const std::string name = fmt::format("fluid[{}]", k);
     waters.push_back({name, c.fluid[k], fitted_box(name, c.fluid[k], *fitted)});
-    add_sides(measures, name, waters.back().fitted);
+    add_sides(lengths, name, waters.back().fitted);
   }
   const Box tank = fitted_box("tank", c.tank, *fitted);
   const std::vector<Obstacle> obstacles = placed_obstacles(c, run);
@@ -81,10 +81,10 @@ std::vector<Measure> fitted_measures(const Case& c, const RunRecord& run) {
     if (obstacles[k].thin) continue;
     const std::string name = called(obstacles[k], k);
     const NamedBox body{name, c.obstacles[k].box, fitted_box(name, obstacles[k].box, *fitted)};
-    add_sides(measures, name, body.fitted);
-    for (const NamedBox& water : waters) add_ways(measures, water, body, tank);
+    add_sides(lengths, name, body.fitted);
+    for (const NamedBox& water : waters) add_ways(lengths, water, body, tank);
   }
-  return measures;
+  return lengths;
 }
 
 }  // namespace
@@ -105,19 +105,18 @@ std::optional<std::vector<FittedLength>> fitted_lengths(const RunRecord& run) {
 }
 
 std::string differing_geometry(const ReportData& data, const ResolutionSeries& series) {
-  std::vector<std::vector<Measure>> runs;
+  std::vector<std::vector<FlowLength>> runs;
   for (const AnalysedRun* run : series.runs)
-    if (auto measures = fitted_measures(data.the_case, run->record); !measures.empty())
-      runs.push_back(std::move(measures));
+    if (auto lengths = flow_lengths(data.the_case, run->record); !lengths.empty()) runs.push_back(std::move(lengths));
   std::string out;
   for (std::size_t k = 0; runs.size() > 1 && k < runs.front().size(); ++k) {
     const auto [least, most] = std::minmax_element(
         runs.begin(), runs.end(), [&](const auto& a, const auto& b) { return a[k].length_m < b[k].length_m; });
     if ((*most)[k].length_m <= (1 + much) * (*least)[k].length_m) continue;
-    std::string lengths;
-    for (const auto& measures : runs) lengths += (lengths.empty() ? "" : ", ") + significant(measures[k].length_m, 3);
-    const Measure& measure = runs.front()[k];
-    out += fmt::format("{}{} is {} m {}", out.empty() ? "" : "; ", measure.box, lengths, measure.what);
+    std::string values;
+    for (const auto& run : runs) values += (values.empty() ? "" : ", ") + significant(run[k].length_m, 3);
+    const FlowLength& length = runs.front()[k];
+    out += fmt::format("{}{} is {} m {}", out.empty() ? "" : "; ", length.box, values, length.what);
   }
   return out;
 }

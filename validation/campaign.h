@@ -66,6 +66,11 @@ bool can_be_reported(const Campaign& campaign, const CampaignRun& run);
 std::string why_outdated(const Campaign& campaign, const CampaignRun& run);
 std::string to_string(CampaignState state);
 
+/// Makes way for an outdated run's successor, and loses nothing: moves it to OUT.outdated/RUN beside the campaign's OUT
+/// (RUN-2, RUN-3, ... where there is one), which it returns. Throws std::runtime_error where another program computes
+/// there, or where it cannot be moved.
+std::filesystem::path set_aside(const CampaignRun& run);
+
 /// What a run will cost.
 struct CampaignEstimate {
   Plan plan;

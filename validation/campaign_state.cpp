@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "validation/campaign.h"
 #include "validation/checkpoint.h"
 #include "validation/run_checkpoint.h"
+#include "validation/run_lock.h"
 
 namespace sluice {
 namespace {
@@ -89,6 +91,24 @@ bool can_be_reported(const Campaign& campaign, const CampaignRun& run) {
 std::string why_outdated(const Campaign& campaign, const CampaignRun& run) {
   const json manifest = manifest_of(run.directory);
   return manifest.is_null() ? "" : outdated_by(manifest, campaign.case_of(run), run);
+}
+
+fs::path set_aside(const CampaignRun& run) {
+  const fs::path out = fs::absolute(run.directory).lexically_normal().parent_path();
+  const fs::path folder = out.string() + ".outdated";
+  const std::string name = run.directory.filename().string();
+  fs::path place = folder / name;
+  for (int k = 2; fs::exists(place); ++k) place = folder / fmt::format("{}-{}", name, k);
+  const RunLock lock(run.directory);
+  try {
+    fs::create_directories(folder);
+    fs::rename(run.directory, place);
+  } catch (const fs::filesystem_error& error) {
+    throw std::runtime_error(
+        fmt::format("{}: is outdated and cannot be moved to {}: {} (move it out of the way, or --force replaces it)",
+                    run.directory.string(), place.string(), error.code().message()));
+  }
+  return place;
 }
 
 std::string to_string(CampaignState state) {

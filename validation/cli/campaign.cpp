@@ -114,6 +114,10 @@ RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Campa
     options.the_case = campaign.case_of(run);
     return resume(run.directory, options, arguments);
   }
+  if (!arguments.force && state_of(campaign, run) == CampaignState::outdated) {
+    const std::string why = reason(campaign, run);
+    tell(stderr, fmt::format("outdated{}: kept as {}\n", why, set_aside(run).string()));
+  }
   RunOptions options;
   options.out = run.directory;
   options.force = true;  // the directory is the campaign's own

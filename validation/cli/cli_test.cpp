@@ -213,6 +213,10 @@ t_end_s = 0.5
   EXPECT_EQ(sluice(command).exit_code, 0);
   EXPECT_EQ(read_run(run).status(), "finished");
   EXPECT_EQ(read_run(run).number("resumed"), 1);
+  std::ofstream(directory / "c.toml", std::ios::app) << "snapshots = true\n";
+  EXPECT_THAT(sluice(command).err, HasSubstr("outdated (without the snapshots asked for): kept as "));
+  EXPECT_EQ(read_run(directory / "runs.outdated" / run.filename()).number("resumed"), 1);
+  EXPECT_FALSE(read_run(run).number("resumed"));
 }
 
 }  // namespace

@@ -178,6 +178,7 @@ TEST(ReportTables, AShortRunIsScoredOverWhatItCoversInATableOfItsOwn) {
   const Table table = early_runs_table(analyse({dir}));
   EXPECT_NEAR(*cell(table, "R1", "up_to_s").value, 5.0, 1e-9);
   EXPECT_NEAR(*cell(table, "R1", "P1_impulse_deviation_percent").value, 20, 0.1);
+  EXPECT_NEAR(*cell(table, "R1", "P1_smoothed_peak_deviation_percent").value, 20, 3);
   EXPECT_GT(*cell(table, "R1", "H2_rmse_over_range_percent").value, 1);
   const fs::path whole = fresh("not_short");
   synthetic::write_run(whole, {});

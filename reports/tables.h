@@ -31,6 +31,8 @@ Table impulses_table(const ReportData& data, bool relative);
 /// Runs that end before the window does, scored over what they cover; no rows when there are none.
 Table early_runs_table(const ReportData& data);
 
+/// Share of the time that a reading lies inside the measured band [%]; a dash where the measurement is no band.
+TableCell inside_band(const ReportData& data, const SensorReading& reading);
 /// Arrival, peaks, errors, lag, band share and noise of every sensor of a kind. `all_models` false: primary readings.
 Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_models);
 

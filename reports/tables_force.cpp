@@ -133,8 +133,9 @@ std::vector<TableColumn> impulse_columns(const std::vector<Window>& windows) {
   return columns;
 }
 
-std::vector<TableCell> impulse_row(const AnalysedRun& run, const SensorReading& reading,
-                                   const std::vector<Window>& windows, const MeasuredSeries* measured) {
+std::vector<TableCell> impulse_row(const ReportData& data, const AnalysedRun& run, const SensorReading& reading,
+                                   const std::vector<Window>& windows) {
+  const MeasuredSeries* measured = data.measured_series(reading.sensor);
   std::vector<TableCell> cells = {word(run.label), word(reading.remarked_model())};
   for (const Window& window : windows) {
     const auto simulated = reading.series.t_s.empty() ? std::nullopt : impulse(reading.series, window);
@@ -144,7 +145,7 @@ std::vector<TableCell> impulse_row(const AnalysedRun& run, const SensorReading& 
   }
   const Comparison& c = reading.comparison;
   cells.insert(cells.end(), {number(c.rmse, decimals), number(scaled(c.rmse_over_range, 100), 1),
-                             number(scaled(c.share_inside_band, 100), 0), signed_number(scaled(c.lag_s, 1000), 0),
+                             inside_band(data, reading), signed_number(scaled(c.lag_s, 1000), 0),
                              number(c.correlation, 2), number(c.noise.simulated, decimals)});
   return cells;
 }
@@ -169,14 +170,12 @@ Table force_impulses_table(const ReportData& data, const std::string& sensor) {
         cells.resize(table.columns.size(), not_applicable());
         return cells;
       },
-      [&](const AnalysedRun& run, const SensorReading& reading) {
-        return impulse_row(run, reading, windows, data.measured_series(sensor));
-      });
+      [&](const AnalysedRun& run, const SensorReading& reading) { return impulse_row(data, run, reading, windows); });
   table.notes.push_back(
       of.measured_is_band ? "Inside band: share of the time between the lowest and the highest measured point of a "
                             "bin; the points of several runs or lines are the band. Bins without points count neither "
                             "way. Noise: root mean square of what a 20 ms running mean takes away."
-                          : "Inside band: missing where the measurement is no band. Noise: root mean square of what a "
+                          : "Inside band: a dash, since the measurement is no band. Noise: root mean square of what a "
                             "20 ms running mean takes away.");
   return table;
 }

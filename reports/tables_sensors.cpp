@@ -42,7 +42,7 @@ void add_measured(Table& table, SensorKind kind, const Comparison& c) {
              number(c.noise.measured, d)});
 }
 
-void add_reading(Table& table, const AnalysedRun& run, const SensorReading& reading) {
+void add_reading(Table& table, const ReportData& data, const AnalysedRun& run, const SensorReading& reading) {
   const Comparison& c = reading.comparison;
   const int d = quantity_of(reading.kind).decimals;
   table.add({word(run.label), word(reading.remarked_model()), number(c.arrival_s.simulated, 3),
@@ -51,7 +51,7 @@ void add_reading(Table& table, const AnalysedRun& run, const SensorReading& read
              number(c.smoothed_peak.simulated, d), number(c.smoothed_peak_time_s.simulated, 3),
              signed_number(scaled(c.smoothed_peak.deviation(), 100), 1), number(c.rmse, d),
              number(scaled(c.rmse_over_range, 100), 1), signed_number(scaled(c.lag_s, 1000), 0),
-             number(c.correlation, 2), number(scaled(c.share_inside_band, 100), 0), number(c.noise.simulated, d)});
+             number(c.correlation, 2), inside_band(data, reading), number(c.noise.simulated, d)});
 }
 
 void add_missing(Table& table, const AnalysedRun& run) {
@@ -61,6 +61,12 @@ void add_missing(Table& table, const AnalysedRun& run) {
 }
 
 }  // namespace
+
+TableCell inside_band(const ReportData& data, const SensorReading& reading) {
+  const CaseSensor* sensor = data.the_case.find_sensor(reading.sensor);
+  if (sensor != nullptr && !sensor->measured_is_band) return not_applicable();
+  return number(scaled(reading.comparison.share_inside_band, 100), 0);
+}
 
 Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_models) {
   Table table;
@@ -85,7 +91,7 @@ Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_mod
           add_measured(table, kind, reading->comparison);
           measured_shown = true;
         }
-        if (all_models || reading->primary) add_reading(table, run, *reading);
+        if (all_models || reading->primary) add_reading(table, data, run, *reading);
       }
     }
   }

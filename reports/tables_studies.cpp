@@ -159,18 +159,28 @@ std::optional<double> early_end_s(const ReportData& data, const AnalysedRun& run
   return t.back();
 }
 
-std::optional<double> early_metric(const ReportData& data, const AnalysedRun& run, const std::string& sensor,
-                                   double end_s) {
+/// Of a load: peak (after a running mean) and impulse. Of a height: RMSE over the range. All in per cent.
+std::vector<TableCell> early_metrics(const ReportData& data, const AnalysedRun& run, const std::string& sensor,
+                                     double end_s) {
   const Window whole = data.window_of(sensor);
   const Window window{whole.begin_s, std::min(whole.end_s, end_s)};
   const SensorReading* reading = run.primary(sensor);
   const MeasuredSeries* measured = data.measured_series(sensor);
-  if (reading == nullptr || measured == nullptr) return std::nullopt;
-  if (reading->kind == SensorKind::pressure || reading->kind == SensorKind::force)
-    return relative_deviation(impulse(reading->series, window), impulse(*measured, window));
+  const bool is_load = data.the_case.find_sensor(sensor)->kind != SensorKind::wave_height;
+  if (reading == nullptr || measured == nullptr) return std::vector<TableCell>(is_load ? 2 : 1, missing());
+  const auto percent = [](std::optional<double> share) { return signed_number(scaled(share, 100), 1); };
+  if (is_load) {
+    const double smoothing_s = ComparisonOptions().smoothing_s;
+    const auto height = [](const std::optional<Peak>& peak) {
+      return peak ? std::optional(peak->value) : std::nullopt;
+    };
+    return {percent(relative_deviation(height(smoothed_peak(reading->series, window, smoothing_s)),
+                                       height(smoothed_peak(*measured, window, smoothing_s)))),
+            percent(relative_deviation(impulse(reading->series, window), impulse(*measured, window)))};
+  }
   const auto error = rmse(reading->series, *measured, window);
   const auto spread = range(*measured, whole);
-  return error && spread && *spread > 0 ? std::optional<double>(*error / *spread) : std::nullopt;
+  return {percent(error && spread && *spread > 0 ? std::optional(*error / *spread) : std::nullopt)};
 }
 
 }  // namespace
@@ -181,8 +191,10 @@ Table early_runs_table(const ReportData& data) {
   table.caption = "Runs that end before the window does, scored over what they cover (primary readings)";
   table.columns = {{"Run", "run", false}, {"Up to [s]", "up_to_s"}};
   std::vector<std::string> sensors = data.headline_sensors();
-  for (const std::string& sensor : sensors)
+  for (const std::string& sensor : sensors) {
+    table.columns.push_back({sensor + " peak [%]", sensor + "_smoothed_peak_deviation_percent"});
     table.columns.push_back({sensor + " impulse [%]", sensor + "_impulse_deviation_percent"});
+  }
   for (const std::string& sensor : data.sensors(SensorKind::wave_height)) {
     sensors.push_back(sensor);
     table.columns.push_back({sensor + " RMSE / range [%]", sensor + "_rmse_over_range_percent"});
@@ -192,13 +204,13 @@ Table early_runs_table(const ReportData& data) {
     if (!end_s) continue;
     std::vector<TableCell> cells = {word(run.label), number(*end_s, 2)};
     for (const std::string& sensor : sensors)
-      cells.push_back(signed_number(scaled(early_metric(data, run, sensor, *end_s), 100), 1));
+      for (TableCell& cell : early_metrics(data, run, sensor, *end_s)) cells.push_back(std::move(cell));
     table.add(std::move(cells));
   }
   table.notes.push_back(
-      "Impulses: signed deviation from the measured impulse over the same time. These numbers enter no ranking, no "
-      "figure "
-      "and no acceptance row: a run that stopped early has not shown what comes after.");
+      "Peaks (of a 10 ms running mean) and impulses: signed deviation from what was measured over the same time. These "
+      "numbers enter no ranking, no figure and no acceptance row: a run that stopped early has not shown what comes "
+      "after.");
   return table;
 }
 

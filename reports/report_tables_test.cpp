@@ -183,6 +183,11 @@ TEST(ReportTables, AShortRunIsScoredOverWhatItCoversInATableOfItsOwn) {
   const fs::path whole = fresh("not_short");
   synthetic::write_run(whole, {});
   EXPECT_TRUE(early_runs_table(analyse({whole})).rows.empty());
+  const Table beside = early_runs_table(analyse({whole, dir}));
+  EXPECT_NEAR(*cell(beside, "R1", "up_to_s").value, 5.0, 1e-9) << "the whole run, over the same time";
+  EXPECT_NEAR(*cell(beside, "R1", "P1_impulse_deviation_percent").value, 0, 0.1);
+  EXPECT_NEAR(*cell(beside, "R2", "P1_impulse_deviation_percent").value, 20, 0.1);
+  EXPECT_THAT(cell(beside, "R2", "run").text, testing::EndsWith("(ends there)"));
 }
 
 TEST(ReportTables, PairsOfRunsThatDifferInTheirWallsAlone) {

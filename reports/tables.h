@@ -28,7 +28,8 @@ Table paper_impulses_table(const ReportData& data);
 /// Impulses of every pressure sensor; `relative`: their signed deviations instead.
 Table impulses_table(const ReportData& data, bool relative);
 
-/// Runs that end before the window does, scored over what they cover; no rows when there are none.
+/// Runs that end before the window does, scored over what they cover, beside all that reach as far; no rows when there
+/// are none.
 Table early_runs_table(const ReportData& data);
 
 /// Share of the time that a reading lies inside the measured band [%]; a dash where the measurement is no band.

@@ -235,7 +235,8 @@ std::vector<Result> results_of_run(const fs::path& directory, const Provenance& 
     refuse_several_builds(run.record);
     add_accuracy(collector, data, run);
     add_early_flow(collector, data, run);
-    if (difference_of_legs(run.record.manifest, {"threads"}).empty()) add_cost(collector, run.record);
+    if (difference_of_legs(run.record.manifest, {"threads"}).empty() && !ended_early(data, run))
+      add_cost(collector, run.record);
   }
   return collector.take();
 }

@@ -245,6 +245,19 @@ bool is_whole(const ReportData& data, const RunRecord& run) {
   return run.own && run.status() == "finished" && run.number("t_end_s").value_or(0) >= data.window.end_s * (1 - 1e-9);
 }
 
+bool ended_early(const ReportData& data, const AnalysedRun& run) {
+  if (run.record.own) return !run.record.status().empty() && run.record.status() != "finished";
+  const std::vector<double>& t = run.record.probes.times_s();
+  return !reaches_end({t, t}, data.window);
+}
+
+std::string left_out_note(const ReportData& data) {
+  std::string keys;
+  for (const AnalysedRun& run : data.runs)
+    if (ended_early(data, run)) keys += (keys.empty() ? "" : ", ") + run.key;
+  return keys.empty() ? "" : fmt::format("Left out, since they ended early: {}.", keys);
+}
+
 std::optional<double> processor_time_s(const AnalysedRun& run) {
   if (const auto cpu_s = run.record.number("cpu_time_s"); cpu_s && *cpu_s > 0) return cpu_s;
   const auto wall_s = run.record.number("wall_time_s");

@@ -86,6 +86,12 @@ std::string parameters_text(const std::map<std::string, double>& parameters);
 /// Whether a run of this program has ended, at the end of the case's window or later.
 bool is_whole(const ReportData& data, const RunRecord& run);
 
+/// Whether a run was stopped before its end, or another code's series ends before the window does. What it has is true
+/// of the time that it covers, and enters nothing that ranks, averages or fits runs.
+bool ended_early(const ReportData& data, const AnalysedRun& run);
+/// "Left out, since they ended early: R4, R8."; empty where none did.
+std::string left_out_note(const ReportData& data);
+
 /// Mean of |deviation| of the impulses over the headline sensors; missing when one of them is. `model` empty: primary.
 std::optional<double> mean_impulse_error(const ReportData& data, const AnalysedRun& run, const std::string& model = "");
 

@@ -35,6 +35,7 @@ std::vector<RunGroup> methods(const ReportData& data) {
   std::vector<RunGroup> groups;
   std::set<std::string> seen;  // one run under two names is one prediction
   for (const AnalysedRun& run : data.runs) {
+    if (ended_early(data, run)) continue;  // what comes late in it is not there
     const std::string title = run.group + parameters_text(changed_parameters(run.record, data.the_case));
     const std::string what =
         fmt::format("{} {} {} {}", title, run.record.l0_m, run.record.alpha().value_or(0), run.series_hash);

@@ -18,12 +18,16 @@ struct Ranked {
   double value = 0;
 };
 
-/// Runs that have the value, smallest magnitude first.
+/// Runs that have the value, smallest magnitude first. One that ended early does not stand beside whole ones.
 template <class Value>
 std::vector<Ranked> ranked(const ReportData& data, Value value) {
+  const auto is_early = [&](const AnalysedRun& run) { return ended_early(data, run); };
+  const bool all_early = std::all_of(data.runs.begin(), data.runs.end(), is_early);
   std::vector<Ranked> out;
-  for (const AnalysedRun& run : data.runs)
+  for (const AnalysedRun& run : data.runs) {
+    if (!all_early && is_early(run)) continue;
     if (const std::optional<double> v = value(run)) out.push_back({&run, *v});
+  }
   std::stable_sort(out.begin(), out.end(),
                    [](const Ranked& a, const Ranked& b) { return std::abs(a.value) < std::abs(b.value); });
   return out;
@@ -179,6 +183,7 @@ std::string lost_finding(const ReportData& data) {
   double through = 0;
   std::vector<std::string> leaking;
   std::vector<std::string> silent;
+  std::vector<std::string> early;
   for (const AnalysedRun& run : data.runs) {
     const auto lost = run.record.number("lost.through_walls");
     if (!lost)
@@ -186,12 +191,14 @@ std::string lost_finding(const ReportData& data) {
     else if (*lost > 0)
       leaking.push_back(run.key);
     through += lost.value_or(0);
+    if (ended_early(data, run)) early.push_back(run.key);
   }
   std::string out = "**Particles through walls**: ";
   if (silent.size() == data.runs.size()) return out + "missing in every run.";
   out += through > 0 ? fmt::format("{} in {}, an error of the method.", grouped(std::llround(through)), list(leaking))
                      : "none.";
-  return silent.empty() ? out : out + " Missing in " + list(silent) + ".";
+  if (!silent.empty()) out += " Missing in " + list(silent) + ".";
+  return early.empty() ? out : out + " Ended early: " + list(early) + ".";
 }
 
 /// How far walls and probe explain an error: of the pairs of runs, the one at the finest resolution and, of those, the
@@ -202,8 +209,10 @@ std::string walls_finding(const ReportData& data) {
   auto key = [&](const auto& pair) {
     return std::pair(pair.first->record.l0_m, mean_impulse_error(data, *pair.first).value_or(1e9));
   };
-  for (const auto& pair : pairs)
+  for (const auto& pair : pairs) {
+    if (ended_early(data, *pair.first) || ended_early(data, *pair.second)) continue;
     if (best == nullptr || key(pair) < key(*best)) best = &pair;
+  }
   if (best == nullptr) return "";
   std::vector<std::string> parts;
   for (const AnalysedRun* run : {best->first, best->second})
@@ -286,7 +295,11 @@ std::vector<KeyNumber> key_numbers(const ReportData& data) {
   }
   const AcceptanceCount count = count_acceptance(data);
   const int all = count.passed + count.failed + count.missing;
-  if (all > 0) keys.push_back({"Acceptance", fmt::format("{} of {}", count.passed, all), "rows passed, over all runs"});
+  if (all > 0)
+    keys.push_back({"Acceptance", fmt::format("{} of {}", count.passed, all),
+                    count.missing == 0
+                        ? "rows passed, over all runs"
+                        : fmt::format("rows passed, over all runs; {} could not be evaluated", count.missing)});
   return keys;
 }
 

@@ -25,7 +25,8 @@ std::map<std::string, std::vector<fs::path>> published_runs() {
   return sets;
 }
 
-TEST(PublishedRuns, AreWholeAndCanBeReported) {
+/// Whole, or interrupted and saying so: then the series reaches as far as the manifest says.
+TEST(PublishedRuns, HaveEndedAndCanBeReported) {
   const auto sets = published_runs();
   EXPECT_FALSE(sets.empty());
   for (const auto& [name, directories] : sets) {
@@ -36,8 +37,9 @@ TEST(PublishedRuns, AreWholeAndCanBeReported) {
       SCOPED_TRACE(run.record.path.string());
       ASSERT_GT(run.record.probes.rows(), 0U);
       if (!run.record.own) continue;
-      EXPECT_EQ(run.record.status(), "finished");
-      const double end_s = run.record.number("t_end_s").value_or(-1);
+      const bool interrupted = run.record.status() == "interrupted";
+      EXPECT_TRUE(interrupted || run.record.status() == "finished") << run.record.status();
+      const double end_s = run.record.number(interrupted ? "time_s" : "t_end_s").value_or(-1);
       EXPECT_NEAR(run.record.probes.times_s().back(), end_s, 0.002 * end_s);
     }
   }

@@ -70,18 +70,6 @@ TEST(ReportTables, SaysWhatTheKernelProbeSaw) {
   EXPECT_EQ(cell(kernel_support_table(analyse({external})), "R1", "P1_percent").text, "missing");
 }
 
-TEST(ReportTables, AnInterruptedRunIsFlaggedAndHasNoImpulse) {
-  const fs::path dir = fresh("interrupted");
-  MadeRun run;
-  run.t_end_s = 1.5;
-  run.status = "interrupted";
-  synthetic::write_run(dir, run);
-  const ReportData data = analyse({dir});
-  EXPECT_EQ(cell(runs_table(data), "R1", "status").text, "interrupted");
-  EXPECT_NE(cell(runs_table(data), "R1", "remarks").text.find("covers 1.50 s"), std::string::npos);
-  EXPECT_EQ(cell(paper_impulses_table(data), "R1", "P1_Pa_s").text, "missing");
-}
-
 TEST(ReportTables, CostsOfTheTwoMethodsStandSideBySideAtEqualParticleDistance) {
   const fs::path wcsph = fresh("cost_wcsph");
   const fs::path mps = fresh("cost_mps");
@@ -167,27 +155,6 @@ TEST(ReportTables, ProcessorTimeIsTheCostAndWallTimeStandsIn) {
   EXPECT_EQ(processor_time_s(run), 20.0);
   run.record.manifest["cpu_time_s"] = 15.0;
   EXPECT_EQ(processor_time_s(run), 15.0);
-}
-
-TEST(ReportTables, AShortRunIsScoredOverWhatItCoversInATableOfItsOwn) {
-  const fs::path dir = fresh("short");
-  MadeRun run;
-  run.t_end_s = 5.0;
-  run.scale = 1.2;
-  synthetic::write_run(dir, run);
-  const Table table = early_runs_table(analyse({dir}));
-  EXPECT_NEAR(*cell(table, "R1", "up_to_s").value, 5.0, 1e-9);
-  EXPECT_NEAR(*cell(table, "R1", "P1_impulse_deviation_percent").value, 20, 0.1);
-  EXPECT_NEAR(*cell(table, "R1", "P1_smoothed_peak_deviation_percent").value, 20, 3);
-  EXPECT_GT(*cell(table, "R1", "H2_rmse_over_range_percent").value, 1);
-  const fs::path whole = fresh("not_short");
-  synthetic::write_run(whole, {});
-  EXPECT_TRUE(early_runs_table(analyse({whole})).rows.empty());
-  const Table beside = early_runs_table(analyse({whole, dir}));
-  EXPECT_NEAR(*cell(beside, "R1", "up_to_s").value, 5.0, 1e-9) << "the whole run, over the same time";
-  EXPECT_NEAR(*cell(beside, "R1", "P1_impulse_deviation_percent").value, 0, 0.1);
-  EXPECT_NEAR(*cell(beside, "R2", "P1_impulse_deviation_percent").value, 20, 0.1);
-  EXPECT_THAT(cell(beside, "R2", "run").text, testing::EndsWith("(ends there)"));
 }
 
 TEST(ReportTables, PairsOfRunsThatDifferInTheirWallsAlone) {

@@ -7,6 +7,7 @@ namespace sluice {
 namespace {
 
 void add_early_runs(ReportSection& section, const ReportData& data) {
+  if (data.measured_series(data.headline_sensors().front()) == nullptr) return;
   Table early = early_runs_table(data);
   if (!early.rows.empty()) section.blocks.push_back(std::move(early));
 }
@@ -114,8 +115,7 @@ ReportSection force_section(const FigureMaker& maker) {
   section.blocks.push_back(force_peaks_table(data));
   for (const std::string& sensor : data.sensors(SensorKind::force))
     section.blocks.push_back(force_impulses_table(data, sensor));
-  if (!data.has(SensorKind::pressure) && data.measured_series(data.headline_sensors().front()) != nullptr)
-    add_early_runs(section, data);
+  if (!data.has(SensorKind::pressure)) add_early_runs(section, data);
   return section;
 }
 

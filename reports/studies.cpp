@@ -101,6 +101,7 @@ std::vector<ResolutionSeries> resolution_series(const ReportData& data) {
          return a.solver == b.solver && a.walls == b.walls && same_alpha(a, b) && same_end(a, b) &&
                 method(data, a) == method(data, b);
        })) {
+    std::erase_if(runs, [&](const AnalysedRun* run) { return ended_early(data, *run); });
     std::stable_sort(runs.begin(), runs.end(), [](auto* a, auto* b) { return a->record.l0_m > b->record.l0_m; });
     ResolutionSeries series;
     for (const AnalysedRun* run : runs) {

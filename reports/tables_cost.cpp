@@ -48,9 +48,10 @@ Table cost_ratio_table(const ReportData& data) {
                    {"MPS [s/s]", "mps_s_per_s"},  {"WCSPH [s/s]", "wcsph_s_per_s"},  {"MPS / WCSPH", "ratio"}};
   bool threads_differ = false;
   for (const AnalysedRun& m : data.runs) {
-    if (m.record.solver != "mps") continue;
+    if (m.record.solver != "mps" || ended_early(data, m)) continue;
     for (const AnalysedRun& w : data.runs) {
-      if (w.record.solver != "wcsph" || std::abs(w.record.l0_m - m.record.l0_m) > 1e-9) continue;
+      if (w.record.solver != "wcsph" || ended_early(data, w) || std::abs(w.record.l0_m - m.record.l0_m) > 1e-9)
+        continue;
       threads_differ = threads_differ || m.record.number("threads") != w.record.number("threads");
       add_pair(table, word(m.label), word(w.label), m.record.l0_m, seconds_per_second(m), seconds_per_second(w));
     }
@@ -63,6 +64,7 @@ Table cost_ratio_table(const ReportData& data) {
   table.notes.push_back(
       "Processor time is summed over threads. Runs that did not share a machine at the same time compare only roughly; "
       "bench/ times whole steps of both solvers side by side.");
+  if (const std::string note = left_out_note(data); !note.empty()) table.notes.push_back(note);
   if (threads_differ) table.notes.push_back("Some of these pairs ran on different numbers of threads.");
   return table;
 }

@@ -23,7 +23,7 @@ bool ends_early(const ReportData& data, const AnalysedRun& run) {
   constexpr double least_s = 0.5;
   const std::vector<double>& t = run.record.probes.times_s();
   const auto last = last_s(run);
-  return last && !covers({t, t}, data.window) && *last >= data.window.begin_s + least_s && *last < data.window.end_s;
+  return last && *last >= data.window.begin_s + least_s && !reaches_end({t, t}, data.window);
 }
 
 /// Where runs end early, of ends alike the first.
@@ -57,7 +57,7 @@ std::vector<TableCell> early_metrics(const ReportData& data, const AnalysedRun& 
   }
   const auto error = rmse(reading->series, *measured, window);
   const auto spread = range(*measured, whole);
-  return {percent(error && spread && *spread > 0 ? std::optional(*error / *spread) : std::nullopt)};
+  return {number(error && spread && *spread > 0 ? std::optional(100 * *error / *spread) : std::nullopt, 1)};
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ Table early_runs_table(const ReportData& data) {
   Table table;
   table.name = "early_runs";
   table.caption =
-      "Runs that end before the window does, scored over what they cover, and all others over the same time (primary "
+      "Runs that end before the window does, scored over what they cover, beside all that reach as far (primary "
       "readings)";
   table.columns = {{"Run", "run", false}, {"Up to [s]", "up_to_s"}};
   std::vector<std::string> sensors = data.headline_sensors();
@@ -90,8 +90,9 @@ Table early_runs_table(const ReportData& data) {
     }
   }
   table.notes.push_back(
-      "Peaks (of a 10 ms running mean) and impulses: signed deviation from what was measured over the same time. These "
-      "numbers enter no ranking, no figure and no acceptance row: a run that stopped early has not shown what comes "
+      "Peaks (of a 10 ms running mean) and impulses: signed deviation from what was measured over the same time. RMSE: "
+      "over the range measured in the whole window. These numbers enter no ranking, no figure and no acceptance row: a "
+      "run that stopped early has not shown what comes "
       "after.");
   return table;
 }

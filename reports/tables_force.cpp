@@ -172,11 +172,12 @@ Table force_impulses_table(const ReportData& data, const std::string& sensor) {
       },
       [&](const AnalysedRun& run, const SensorReading& reading) { return impulse_row(data, run, reading, windows); });
   table.notes.push_back(
-      of.measured_is_band ? "Inside band: share of the time between the lowest and the highest measured point of a "
-                            "bin; the points of several runs or lines are the band. Bins without points count neither "
-                            "way. Noise: root mean square of what a 20 ms running mean takes away."
-                          : "Inside band: a dash, since the measurement is no band. Noise: root mean square of what a "
-                            "20 ms running mean takes away.");
+      of.measured_is_band || data.measured_series(sensor) == nullptr
+          ? "Inside band: share of the time between the lowest and the highest measured point of a "
+            "bin; the points of several runs or lines are the band. Bins without points count neither "
+            "way. Noise: root mean square of what a 20 ms running mean takes away."
+          : "Inside band: a dash, since the measurement is no band. Noise: root mean square of what a "
+            "20 ms running mean takes away.");
   return table;
 }
 

@@ -64,7 +64,8 @@ void add_missing(Table& table, const AnalysedRun& run) {
 
 TableCell inside_band(const ReportData& data, const SensorReading& reading) {
   const CaseSensor* sensor = data.the_case.find_sensor(reading.sensor);
-  if (sensor != nullptr && !sensor->measured_is_band) return not_applicable();
+  if (sensor != nullptr && !sensor->measured_is_band && data.measured_series(reading.sensor) != nullptr)
+    return not_applicable();
   return number(scaled(reading.comparison.share_inside_band, 100), 0);
 }
 
@@ -95,8 +96,14 @@ Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_mod
       }
     }
   }
-  if (std::any_of(sensors.begin(), sensors.end(),
-                  [&](const std::string& sensor) { return data.measured_series(sensor) != nullptr; }))
+  const auto any_measured = [&](bool without_band) {
+    return std::any_of(sensors.begin(), sensors.end(), [&](const std::string& sensor) {
+      return data.measured_series(sensor) != nullptr &&
+             !(without_band && data.the_case.find_sensor(sensor)->measured_is_band);
+    });
+  };
+  if (any_measured(true)) table.notes.push_back("Inside band: a dash where the measurement is no band.");
+  if (any_measured(false))
     table.notes.push_back(
         "The experiment's noise is that of the digest's bin means, so only of what is slower than a bin: less than the "
         "recording has, and not to be held against the runs'.");
@@ -136,7 +143,8 @@ Table kernel_support_table(const ReportData& data) {
       const MeasuredSeries* measured = data.measured_series(sensor);
       const Window window = data.window_of(sensor);
       const auto arrival = measured == nullptr ? std::nullopt : arrival_at_fraction_of_peak(*measured, window);
-      const auto seen = arrival ? share_seen(run, sensor, {*arrival, window.end_s}) : std::nullopt;
+      const auto seen =
+          arrival && !ended_early(data, run) ? share_seen(run, sensor, {*arrival, window.end_s}) : std::nullopt;
       cells.push_back(number(scaled(seen, 100), 1));
     }
     table.add(std::move(cells));

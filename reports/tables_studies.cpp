@@ -140,6 +140,7 @@ Table resolution_table(const ReportData& data) {
   table.notes.push_back(
       "Index: safety factor 1.25 where the observed order lies between 1.8 and 2.2, else 3, with an order of 2 at "
       "most.");
+  if (const std::string note = left_out_note(data); !note.empty()) table.notes.push_back(note);
   for (const ResolutionSeries& series : all_series)
     for (const AnalysedRun* run : series.left_out)
       table.notes.push_back(

@@ -60,6 +60,7 @@ Table bias_table(const ReportData& data) {
                                           method.name, found->left_out));
     }
   }
+  if (const std::string note = left_out_note(data); !note.empty()) table.notes.push_back(note);
   table.notes.push_back(
       "A pair is one sensor of one run, primary reading, coarse and fine runs alike; runs of other parameters than the "
       "case's are a method of their own. Bias 1.10: predictions are 10 % too large in the mean; scatter: relative "

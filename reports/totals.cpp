@@ -69,10 +69,11 @@ Table conservation_table(const ReportData& data) {
     const auto e = energy(run);
     const auto ratio = compression(run);
     const auto percent = [&](double joule) { return 100 * joule / e->value.front(); };
+    const bool early = ended_early(data, run);  // there is less energy the later it is
     table.add({word(run.label), e ? number(e->value.front(), 1) : missing(),
-               e ? number(percent(e->value.back()), 1) : missing(),
+               e && !early ? number(percent(e->value.back()), 1) : missing(),
                e ? number(percent(largest_rise(e->value)), 2) : missing(), number(greatest(ratio, 0), 3),
-               number(greatest(ratio, later_s), 3), typed(run.record.number("lost.through_walls")),
+               early ? missing() : number(greatest(ratio, later_s), 3), typed(run.record.number("lost.through_walls")),
                typed(run.record.number("lost.over_top"))});
   }
   table.notes.push_back(

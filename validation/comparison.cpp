@@ -47,7 +47,7 @@ void add_arrivals(Comparison& result, const Series& simulated, const MeasuredSer
   result.half_peak_s.simulated = arrival_time(simulated, result.window, 0.5 * *result.peak.measured);
   if (!result.arrival_s.measured) {
     result.remarks.push_back("no measured arrival: the series is over the threshold from the start");
-  } else if (!result.arrival_s.simulated) {
+  } else if (!result.arrival_s.simulated && covers(simulated, result.window)) {
     const auto from = std::lower_bound(simulated.t_s.begin(), simulated.t_s.end(), result.window.begin_s);
     const bool has_begin = from != simulated.t_s.end();
     result.remarks.push_back(

@@ -22,12 +22,6 @@ bool reaches_begin(const Curve& curve, Window window) {
          curve.t_s.front() - window.begin_s <= slack_s(curve.t_s[1] - curve.t_s[0], window);
 }
 
-bool reaches_end(const Curve& curve, Window window) {
-  const auto n = curve.t_s.size();
-  return n >= 2 && curve.t_s.back() > window.begin_s &&
-         window.end_s - curve.t_s.back() <= slack_s(curve.t_s[n - 1] - curve.t_s[n - 2], window);
-}
-
 /// Over anything longer a straight line would be an invention.
 double shortest_gap_s(Window window) {
   return 0.01 * (window.end_s - window.begin_s);
@@ -54,6 +48,12 @@ std::optional<Window> first_gap(const Curve& curve, Window window, double shorte
 
 std::optional<Window> first_gap(const Curve& curve, Window window) {
   return first_gap(curve, window, shortest_gap_s(window));
+}
+
+bool reaches_end(const Curve& curve, Window window) {
+  const auto n = curve.t_s.size();
+  return n >= 2 && curve.t_s.back() > window.begin_s &&
+         window.end_s - curve.t_s.back() <= slack_s(curve.t_s[n - 1] - curve.t_s[n - 2], window);
 }
 
 bool covers(const Curve& curve, Window window) {

@@ -44,6 +44,9 @@ struct Lag {
 /// their first sample. Integrals then run over what is there.
 bool covers(const Curve& curve, Window window);
 
+/// Whether the curve reaches the end of the window, gaps or not.
+bool reaches_end(const Curve& curve, Window window);
+
 /// The first gap between samples within the window, in which rows are missing: longer than 20 times both intervals
 /// beside it and than `shortest_s`. Missing when there is none.
 std::optional<Window> first_gap(const Curve& curve, Window window, double shortest_s);

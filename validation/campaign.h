@@ -57,7 +57,7 @@ enum class CampaignState {
   finished,    ///< with the inputs of today
   resumable,   ///< with the inputs of today, and a checkpoint
   incomplete,  ///< begun, failed or interrupted, without a checkpoint to go on from
-  outdated,    ///< computed from other inputs: another case file, other parameters, without the snapshots asked for
+  outdated,    ///< from other inputs: another case file, other parameters, without the snapshots asked for; unreadable
 };
 CampaignState state_of(const Campaign& campaign, const CampaignRun& run);
 /// Whether a run has ended with the inputs of today; it may lack snapshots.
@@ -66,10 +66,10 @@ bool can_be_reported(const Campaign& campaign, const CampaignRun& run);
 std::string why_outdated(const Campaign& campaign, const CampaignRun& run);
 std::string to_string(CampaignState state);
 
-/// Makes way for an outdated run's successor, and loses nothing: moves it to OUT.outdated/RUN beside the campaign's OUT
-/// (RUN-2, RUN-3, ... where there is one), which it returns. Throws std::runtime_error where another program computes
-/// there, or where it cannot be moved.
-std::filesystem::path set_aside(const CampaignRun& run);
+/// Makes way for a run's successor, and loses nothing: moves a run to the folder `outdated` beside it (as RUN, or
+/// RUN-2, RUN-3, ... where there is one), and returns where it is now. Throws std::runtime_error where another program
+/// computes there, or where it cannot be moved.
+std::filesystem::path set_aside(const std::filesystem::path& run);
 
 /// What a run will cost.
 struct CampaignEstimate {

@@ -31,6 +31,12 @@ json manifest_of(const fs::path& directory) {
   return manifest;
 }
 
+/// What a run leaves, with or without a manifest that can be read.
+bool holds_results(const fs::path& directory) {
+  return fs::exists(directory / "run.json") || fs::exists(directory / checkpoint_file) ||
+         fs::exists(directory / "probes.csv");
+}
+
 /// Keys of a manifest that are not as the run is asked for.
 std::vector<std::string> other_inputs(const json& manifest, const Case& c, const RunSettings& s) {
   const std::vector<std::pair<const char*, json>> inputs{
@@ -76,7 +82,7 @@ std::string outdated_by(const json& manifest, const Case& c, const CampaignRun& 
 
 CampaignState state_of(const Campaign& campaign, const CampaignRun& run) {
   const json manifest = manifest_of(run.directory);
-  if (manifest.is_null()) return CampaignState::absent;
+  if (manifest.is_null()) return holds_results(run.directory) ? CampaignState::outdated : CampaignState::absent;
   if (!outdated_by(manifest, campaign.case_of(run), run).empty()) return CampaignState::outdated;
   if (text_of(manifest, "status") == "finished") return CampaignState::finished;
   return fs::exists(run.directory / checkpoint_file) ? CampaignState::resumable : CampaignState::incomplete;
@@ -90,23 +96,26 @@ bool can_be_reported(const Campaign& campaign, const CampaignRun& run) {
 
 std::string why_outdated(const Campaign& campaign, const CampaignRun& run) {
   const json manifest = manifest_of(run.directory);
-  return manifest.is_null() ? "" : outdated_by(manifest, campaign.case_of(run), run);
+  if (manifest.is_null()) return holds_results(run.directory) ? "its run.json cannot be read" : "";
+  return outdated_by(manifest, campaign.case_of(run), run);
 }
 
-fs::path set_aside(const CampaignRun& run) {
-  const fs::path out = fs::absolute(run.directory).lexically_normal().parent_path();
-  const fs::path folder = out.string() + ".outdated";
-  const std::string name = run.directory.filename().string();
-  fs::path place = folder / name;
-  for (int k = 2; fs::exists(place); ++k) place = folder / fmt::format("{}-{}", name, k);
-  const RunLock lock(run.directory);
+fs::path set_aside(const fs::path& run) {
+  const fs::path folder = run.parent_path() / "outdated";
+  fs::path place = folder / run.filename();
   try {
+    for (int k = 2; fs::exists(place); ++k) place = folder / fmt::format("{}-{}", run.filename().string(), k);
+    const RunLock lock(run);
+    if (!lock.held() && text_of(manifest_of(run), "status") == "running")
+      throw std::runtime_error(
+          fmt::format("{}: a run may be going on here, and the file system knows no locks (where it was killed, move "
+                      "the folder away)",
+                      run.string()));
     fs::create_directories(folder);
-    fs::rename(run.directory, place);
+    fs::rename(run, place);
   } catch (const fs::filesystem_error& error) {
-    throw std::runtime_error(
-        fmt::format("{}: is outdated and cannot be moved to {}: {} (move it out of the way, or --force replaces it)",
-                    run.directory.string(), place.string(), error.code().message()));
+    throw std::runtime_error(fmt::format("{}: is outdated and cannot be moved to {}: {} (move it away, or remove it)",
+                                         run.string(), place.string(), error.code().message()));
   }
   return place;
 }

@@ -40,7 +40,7 @@ TEST_F(CampaignStateTest, AManifestOfAnyShapeHasAState) {
   for (const char* text : {"[1]", "{\"status\": 5}", "{", ""}) {
     fs::create_directories(c.runs[0].directory);
     std::ofstream(c.runs[0].directory / "run.json") << text;
-    EXPECT_NE(state_of(c, c.runs[0]), CampaignState::finished) << text;
+    EXPECT_EQ(state_of(c, c.runs[0]), CampaignState::outdated) << text;
     EXPECT_NE(estimate(c, c.runs[1], known_costs(c, {})).plan.basis, PlanBasis::run) << text;
   }
 }
@@ -89,16 +89,17 @@ TEST_F(CampaignStateTest, AnOutdatedRunIsSetAsideWhole) {
   for (const std::string suffix : {"", "-2", "-3"}) {
     put(run, manifest(campaign, run, "interrupted"));
     std::ofstream(run.directory / checkpoint_file) << "hours of work" << suffix;
-    const fs::path place = set_aside(run);
+    const fs::path place = set_aside(run.directory);
     EXPECT_EQ(place.filename().string(), run.directory.filename().string() + suffix);
-    EXPECT_EQ(place.parent_path(), fs::absolute(run.directory.parent_path()).string() + ".outdated");
+    EXPECT_EQ(place.parent_path(), run.directory.parent_path() / "outdated");
     std::ifstream checkpoint(place / checkpoint_file);
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(checkpoint), {}), "hours of work" + suffix);
     EXPECT_EQ(state_of(campaign, run), CampaignState::absent);
   }
   put(run, manifest(campaign, run, "interrupted"));
   const RunLock held(run.directory);
-  EXPECT_THAT([&] { set_aside(run); }, testing::ThrowsMessage<std::runtime_error>(HasSubstr("computes here")));
+  EXPECT_THAT([&] { set_aside(run.directory); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("computes here")));
 }
 
 TEST_F(CampaignStateTest, TimesAreScaledFromTheNearestFinishedRunOfItsKind) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "validation/run_lock.h"
 #include "validation/solver_factory.h"
 
 namespace sluice {
@@ -77,9 +78,9 @@ void refuse_if_too_large(const Case& c, const RunSettings& settings, const Plan&
                              : l0_m > 0 ? fmt::format("use --l0 {:g} or more, or free some memory", l0_m)
                                         : "free some memory: the coarsest particles that resolve the case do not fit "
                                           "either";
-  throw std::runtime_error(fmt::format("l0 = {:g} m needs about {} of memory, {} are available ({})", settings.l0_m,
-                                       human_bytes(static_cast<double>(plan.memory_bytes)),
-                                       human_bytes(static_cast<double>(*available_bytes)), remedy));
+  throw NotNow(fmt::format("l0 = {:g} m needs about {} of memory, {} are available ({})", settings.l0_m,
+                           human_bytes(static_cast<double>(plan.memory_bytes)),
+                           human_bytes(static_cast<double>(*available_bytes)), remedy));
 }
 
 std::string describe(const Plan& plan, std::optional<std::int64_t> available_bytes) {

@@ -30,7 +30,7 @@ struct Plan {
 /// Throws std::invalid_argument when the geometry cannot be built at this particle distance.
 Plan plan_run(const Case& c, const RunSettings& settings);
 
-/// Throws std::runtime_error when the plan does not fit; the message names the particle distance that would, but for a
+/// Throws NotNow (run_lock.h) when the plan does not fit; the message names the particle distance that would, but for a
 /// run that was begun elsewhere and keeps its own.
 void refuse_if_too_large(const Case& c, const RunSettings& settings, const Plan& plan,
                          std::optional<std::int64_t> available_bytes, bool begun = false);

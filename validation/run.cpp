@@ -69,10 +69,10 @@ std::string what_runs(const Case& c, const RunSettings& settings, const fs::path
 RunHeader header_of(const fs::path& directory) {
   const fs::path file = directory / checkpoint_file;
   if (!fs::exists(file) && fs::exists(directory / "run.json"))
-    throw std::runtime_error(
-        fmt::format("{}: holds no checkpoint: the run has finished, or was stopped before its first one (start it anew "
-                    "with `sluice run ... --force`)",
-                    directory.string()));
+    throw std::runtime_error(fmt::format(
+        "{}: holds no checkpoint: the run has finished, and there is nothing to do, or it was stopped before "
+        "its first one (then start it anew with `sluice run ... --force`)",
+        directory.string()));
   const nlohmann::json json = read_checkpoint_header(file);
   try {
     return run_header_from(json);

@@ -43,8 +43,8 @@ RunLock::RunLock(const std::filesystem::path& directory)
   if (!held_ && errno == EWOULDBLOCK) {
     const std::string who = holder(descriptor_);
     close(descriptor_);
-    throw std::runtime_error(fmt::format("{}: {} computes here at this moment (wait until it has ended, or stop it)",
-                                         directory.string(), who));
+    throw NotNow(fmt::format("{}: {} computes here at this moment (wait until it has ended, or stop it)",
+                             directory.string(), who));
   }
   const std::string text = this_process();
   // The name is a help for who is refused, not the lock.

@@ -2,8 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <stdexcept>
 
 namespace sluice {
+
+/// A run is refused for what will pass: another program computes there, memory is short. What it has is good.
+struct NotNow : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 /// The file in a run directory that is locked while a program computes there; it names that program, and stays behind.
 inline constexpr const char* lock_file = ".lock";
@@ -11,8 +17,8 @@ inline constexpr const char* lock_file = ".lock";
 /// Held while alive, and let go by the system when the process dies, however it dies.
 class RunLock {
  public:
-  /// Throws std::runtime_error naming the directory, who computes there, and the remedy; or when the lock's file cannot
-  /// be opened.
+  /// Throws NotNow naming the directory, who computes there, and the remedy; std::runtime_error when the lock's file
+  /// cannot be opened.
   explicit RunLock(const std::filesystem::path& directory);
   ~RunLock();
   RunLock(RunLock&& other) noexcept;

@@ -23,6 +23,12 @@ std::string status_of(const fs::path& manifest_file) {
   return manifest["status"].get<std::string>();
 }
 
+/// Another code's, it may be, whose manifest is still to be written.
+bool has_series(const fs::path& directory) {
+  const fs::path file = directory / "probes.csv";
+  return fs::is_regular_file(file) && fs::file_size(file) > 0;
+}
+
 void remove_old_run(const fs::path& directory) {
   // The checkpoint first: left behind, it would come to belong to the new run.
   for (const char* name : {checkpoint_file, "run.json", "probes.csv", "log.txt", "snapshots.pvd"})
@@ -39,7 +45,7 @@ RunLock prepare_run_directory(const fs::path& directory, bool force) {
     fs::create_directories(directory);
     RunLock lock(directory);
     const bool has_checkpoint = fs::exists(directory / checkpoint_file);
-    if (!fs::exists(directory / "run.json") && !has_checkpoint) return lock;
+    if (!fs::exists(directory / "run.json") && !has_series(directory) && !has_checkpoint) return lock;
     const std::string status = status_of(directory / "run.json");
     if (!force && has_checkpoint)
       throw std::runtime_error(

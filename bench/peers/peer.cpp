@@ -81,6 +81,16 @@ Peer find_peer(const std::string& name_or_path, const fs::path& folder) {
                                        known.empty() ? "" : fmt::format(" (there are {}; or give a path)", known)));
 }
 
+/// Removes the run of before, and nothing else that is called so.
+void make_way(const fs::path& directory) {
+  const bool was_run = fs::exists(directory / "run.json") || fs::exists(directory.string() + ".log");
+  if (fs::exists(directory) && !(fs::is_directory(directory) && (was_run || fs::is_empty(directory))))
+    throw std::runtime_error(fmt::format(
+        "{}: is no run of a peer, and would have to make way for one (choose another --out)", directory.string()));
+  fs::remove_all(directory);
+  fs::create_directories(directory);
+}
+
 std::optional<std::string> why_missing(const Peer& peer, const fs::path& log) {
   const int code = run_program({peer.program.string(), "--check"}, log);
   if (code == 0) return std::nullopt;
@@ -91,8 +101,7 @@ std::optional<std::string> why_missing(const Peer& peer, const fs::path& log) {
 }
 
 PeerRun run_peer(const Peer& peer, const PeerTask& task, const fs::path& directory) {
-  fs::remove_all(directory);
-  fs::create_directories(directory);
+  make_way(directory);
   const fs::path log = directory.string() + ".log";
   const int code = run_program(
       {peer.program.string(), "--case", task.case_name, "--l0", fmt::format("{}", task.l0_m), "--t-end",

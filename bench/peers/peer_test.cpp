@@ -77,6 +77,17 @@ TEST_F(Peers, OldResultsAreNotTakenForNewOnes) {
   EXPECT_FALSE(fs::exists(folder / "run" / "old.txt"));
 }
 
+TEST_F(Peers, NothingElseMakesWayForARun) {
+  fs::create_directories(folder / "clone");
+  std::ofstream(folder / "clone" / "source.c") << "work";
+  std::ofstream(folder / "program") << "work";
+  for (const char* name : {"clone", "program"}) {
+    EXPECT_THROW(run_peer(stand_in, task, folder / name), std::runtime_error) << name;
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
+  }
+  EXPECT_TRUE(fs::exists(folder / "clone" / "source.c"));
+}
+
 TEST_F(Peers, MistakesNameTheProgramOrTheFile) {
   behave("failing");
   EXPECT_THAT(error_of_run(),

@@ -16,10 +16,12 @@
 #include "validation/cli/commands.h"
 #include "validation/cli/usage_error.h"
 #include "validation/plan.h"
+#include "validation/printable.h"
 #include "validation/progress.h"
 #include "validation/rate_probe.h"
 #include "validation/run.h"
 #include "validation/run_cost.h"
+#include "validation/run_lock.h"
 
 namespace sluice::cli {
 namespace {
@@ -91,13 +93,16 @@ double print_plan(const Campaign& campaign, bool force, const std::vector<RunCos
   return planned_s;
 }
 
-/// What is refused tells how to begin anew within the campaign, too.
+/// What cannot go on tells how to begin anew within the campaign, too.
 RunOutcome resume(const fs::path& directory, const ResumeOptions& options, const CampaignArguments& arguments) {
   try {
     return resume_run(directory, options);
+  } catch (const NotNow&) {
+    throw;
   } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("{} [anew within its campaign: `sluice campaign {} --force --only {}`]",
-                                         error.what(), arguments.file, directory.filename().string()));
+    throw std::runtime_error(fmt::format(
+        "{} [anew within its campaign: `sluice campaign {} --out {} --force --only {}`]", error.what(),
+        shell_quoted(arguments.file), shell_quoted(directory.parent_path().string()), directory.filename().string()));
   }
 }
 
@@ -114,9 +119,11 @@ RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Campa
     options.the_case = campaign.case_of(run);
     return resume(run.directory, options, arguments);
   }
+  fs::path aside;
   if (!arguments.force && state_of(campaign, run) == CampaignState::outdated) {
     const std::string why = reason(campaign, run);
-    tell(stderr, fmt::format("outdated{}: kept as {}\n", why, set_aside(run).string()));
+    aside = set_aside(run.directory);
+    tell(stderr, fmt::format("outdated{}: kept as {}\n", why, aside.string()));
   }
   RunOptions options;
   options.out = run.directory;
@@ -125,7 +132,13 @@ RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Campa
   options.terminal = terminal;
   options.checkpoint_every_s = arguments.checkpoint_every_s;
   options.plan = plan;
-  return run_case(campaign.case_of(run), run.settings, options);
+  try {
+    return run_case(campaign.case_of(run), run.settings, options);
+  } catch (const std::exception&) {
+    // Refused: what there is stays where the report looks for it.
+    if (!aside.empty() && !fs::exists(run.directory)) fs::rename(aside, run.directory);
+    throw;
+  }
 }
 
 /// A run that fails is told and does not stop the others. Returns the code of an interruption, or 0.

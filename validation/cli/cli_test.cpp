@@ -124,6 +124,30 @@ TEST_F(CommandLine, ValidateOfATooShortRunDoesNotPass) {
       << "the report reads the file that the runs were made with";
 }
 
+TEST_F(CommandLine, AnInterruptedValidationGoesOnOrKeepsWhatItHad) {
+  std::string text = contents("validation/cases/kleefsman.toml");
+  const std::string quick = "l0_m = 0.03, t_end_s = 6.0";
+  text.replace(text.find(quick), quick.size(), "l0_m = 0.05, t_end_s = 0.5");
+  std::ofstream(directory / "short.toml") << text;
+  const std::string command = fmt::format(
+      "validate {0}/short.toml --solver mps --threads 1 --runs {0}/runs --out {0}/report", directory.string());
+  const fs::path run = directory / "runs" / "validate-quick-kleefsman-mps-dummies";
+  ASSERT_EQ(interrupted(command, run), 143);
+  const bool same_build = !read_run(run).text("commit").value_or("").ends_with("-dirty");
+  sluice(command);
+  EXPECT_EQ(read_run(run).status(), "finished");
+  EXPECT_EQ(read_run(run).number("resumed").value_or(0), same_build ? 1 : 0);
+  EXPECT_EQ(fs::exists(directory / "runs" / "outdated" / run.filename()), !same_build);
+}
+
+TEST_F(CommandLine, ARunDoesNotTakeTheFolderOfAnothersSeries) {
+  std::ofstream(directory / "probes.csv") << "t_s,P1_Pa\n0,1\n";
+  const Answer answer = sluice("run kleefsman --l0 0.05 --threads 1 t_end_s=0.02 --out " + directory.string());
+  EXPECT_EQ(answer.exit_code, 1);
+  EXPECT_THAT(answer.err, HasSubstr("holds a run already"));
+  EXPECT_EQ(contents(directory / "probes.csv"), "t_s,P1_Pa\n0,1\n");
+}
+
 TEST_F(CommandLine, AnInterruptedRunKeepsItsResults) {
   const fs::path run = directory / "run";
   EXPECT_EQ(interrupted("run kleefsman --l0 0.05 --threads 1 --out " + run.string(), run), 143);
@@ -215,8 +239,8 @@ t_end_s = 0.5
   EXPECT_EQ(read_run(run).number("resumed"), 1);
   std::ofstream(directory / "c.toml", std::ios::app) << "snapshots = true\n";
   EXPECT_THAT(sluice(command).err, HasSubstr("outdated (without the snapshots asked for): kept as "));
-  EXPECT_EQ(read_run(directory / "runs.outdated" / run.filename()).number("resumed"), 1);
-  EXPECT_FALSE(read_run(run).number("resumed"));
+  EXPECT_EQ(read_run(directory / "runs" / "outdated" / run.filename()).number("resumed"), 1);
+  EXPECT_EQ(read_run(run).number("resumed"), 0);
 }
 
 }  // namespace

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "reports/report.h"
 #include "validation/acceptance.h"
+#include "validation/campaign.h"
+#include "validation/checkpoint.h"
 #include "validation/cli/commands.h"
 #include "validation/cli/usage_error.h"
 #include "validation/legs.h"
@@ -55,13 +58,43 @@ const SolverOption& find_solver(const Case& c, const std::string& name) {
   throw UsageError(fmt::format("--solver: case {} has no solver `{}`{}", c.name, name, suggestion(name, names)));
 }
 
+bool is_of_this_build(const RunRecord& record) {
+  const std::string commit = record.text("commit").value_or("");
+  return commit == build_info().commit && !commit.ends_with("-dirty");
+}
+
 // With --reuse a finished run of this very build and case is not computed again.
 bool is_current(const Case& c, const fs::path& directory) {
   if (!fs::exists(directory / "run.json") || !fs::exists(directory / "probes.csv")) return false;
   const RunRecord record = read_run(directory);
-  const std::string commit = record.text("commit").value_or("");
-  return record.status() == "finished" && commit == build_info().commit && !commit.ends_with("-dirty") &&
-         record.text("case_hash") == c.hash && difference_of_legs(record.manifest).empty();
+  return record.status() == "finished" && is_of_this_build(record) && record.text("case_hash") == c.hash &&
+         difference_of_legs(record.manifest).empty();
+}
+
+/// Goes on with an unfinished run of this very build, case and settings; another one is set aside.
+std::optional<RunOutcome> go_on(const Case& c, const RunSettings& settings, const fs::path& directory) {
+  if (!fs::exists(directory / checkpoint_file)) return std::nullopt;
+  const Campaign alone{"validate", {c}, {{0, settings, directory}}, {}};
+  if (state_of(alone, alone.runs.front()) == CampaignState::resumable && is_of_this_build(read_run(directory))) {
+    ResumeOptions options;
+    options.the_case = c;
+    options.threads = settings.threads;
+    options.progress = stderr;
+    options.terminal = isatty(STDERR_FILENO) == 1;
+    return resume_run(directory, options);
+  }
+  tell(stderr,
+       fmt::format("unfinished, and of another build or other inputs: kept as {}\n", set_aside(directory).string()));
+  return std::nullopt;
+}
+
+RunOutcome begin(const Case& c, const RunSettings& settings, const fs::path& directory) {
+  RunOptions options;
+  options.out = directory;
+  options.force = true;  // the directory is this command's own
+  options.progress = stderr;
+  options.terminal = isatty(STDERR_FILENO) == 1;
+  return run_case(c, settings, options);
 }
 
 // Throws where the run is refused.
@@ -71,12 +104,9 @@ RunOutcome run_once(const Case& c, const ValidateArguments& arguments, const Run
     tell(stderr, fmt::format("{}: reused\n", directory.string()));
     return {"finished", "", 0};
   }
-  RunOptions options;
-  options.out = directory;
-  options.force = true;  // the directory is this command's own
-  options.progress = stderr;
-  options.terminal = isatty(STDERR_FILENO) == 1;
-  RunOutcome outcome = run_case(c, resolve_settings(c, request), options);
+  const RunSettings settings = resolve_settings(c, request);
+  const std::optional<RunOutcome> gone_on = go_on(c, settings, directory);
+  RunOutcome outcome = gone_on ? *gone_on : begin(c, settings, directory);
   if (!outcome.error.empty()) tell(stderr, fmt::format("sluice: error: {}: {}\n", directory.string(), outcome.error));
   return outcome;
 }
@@ -167,7 +197,10 @@ int validate(const ValidateArguments& arguments) {
   const Tier& tier = find_tier(c, arguments.tier);
   if (!arguments.solver.empty()) find_solver(c, arguments.solver);
   const Computed computed = compute(c, arguments, tier);
-  if (computed.interrupted != 0) return computed.interrupted;
+  if (computed.interrupted != 0) {
+    tell(stderr, "interrupted; the same command goes on with this run (with --reuse it keeps those before it)\n");
+    return computed.interrupted;
+  }
   const std::vector<fs::path>& directories = computed.directories;
   if (directories.empty())
     throw std::runtime_error(computed.any_failed ? "no run left anything to judge (why is told above)"

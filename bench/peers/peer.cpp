@@ -67,6 +67,16 @@ json benchmark_entry(const PeerRuns& p, const PeerTask& task, std::size_t repeti
           {"omp_threads", task.threads}};
 }
 
+/// Removes the run of before, and nothing else that is called so.
+void make_way(const fs::path& directory) {
+  const bool was_run = fs::exists(directory / "run.json") || fs::exists(directory.string() + ".log");
+  if (fs::exists(directory) && !(fs::is_directory(directory) && (was_run || fs::is_empty(directory))))
+    throw std::runtime_error(fmt::format(
+        "{}: is no run of a peer, and would have to make way for one (choose another --out)", directory.string()));
+  fs::remove_all(directory);
+  fs::create_directories(directory);
+}
+
 }  // namespace
 
 Peer find_peer(const std::string& name_or_path, const fs::path& folder) {
@@ -79,16 +89,6 @@ Peer find_peer(const std::string& name_or_path, const fs::path& folder) {
       if (is_program(entry.path())) known += (known.empty() ? "" : ", ") + entry.path().filename().string();
   throw std::runtime_error(fmt::format("{}: no such program{}", program.string(),
                                        known.empty() ? "" : fmt::format(" (there are {}; or give a path)", known)));
-}
-
-/// Removes the run of before, and nothing else that is called so.
-void make_way(const fs::path& directory) {
-  const bool was_run = fs::exists(directory / "run.json") || fs::exists(directory.string() + ".log");
-  if (fs::exists(directory) && !(fs::is_directory(directory) && (was_run || fs::is_empty(directory))))
-    throw std::runtime_error(fmt::format(
-        "{}: is no run of a peer, and would have to make way for one (choose another --out)", directory.string()));
-  fs::remove_all(directory);
-  fs::create_directories(directory);
 }
 
 std::optional<std::string> why_missing(const Peer& peer, const fs::path& log) {

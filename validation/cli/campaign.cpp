@@ -110,7 +110,8 @@ RunOutcome resume(const fs::path& directory, const ResumeOptions& options, const
 RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const CampaignArguments& arguments,
                    const std::optional<Plan>& plan) {
   const bool terminal = isatty(STDERR_FILENO) == 1;
-  if (!arguments.force && state_of(campaign, run) == CampaignState::resumable) {
+  const CampaignState state = arguments.force ? CampaignState::absent : state_of(campaign, run);
+  if (state == CampaignState::resumable) {
     ResumeOptions options;
     options.threads = run.settings.threads;
     options.progress = stderr;
@@ -120,7 +121,7 @@ RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Campa
     return resume(run.directory, options, arguments);
   }
   fs::path aside;
-  if (!arguments.force && state_of(campaign, run) == CampaignState::outdated) {
+  if (state == CampaignState::outdated) {
     const std::string why = reason(campaign, run);
     aside = set_aside(run.directory);
     tell(stderr, fmt::format("outdated{}: kept as {}\n", why, aside.string()));

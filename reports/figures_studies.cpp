@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "reports/figures.h"
+#include "reports/name_places.h"
 #include "reports/plot.h"
 #include "reports/studies.h"
 
@@ -71,33 +73,52 @@ std::vector<Picture> resolution_figures(const FigureMaker& maker) {
 
 namespace {
 
-/// Points that fall on each other share one label.
-void merge_labels(PlotPanel& panel, double largest_y) {
-  struct Label {
-    double x = 0, y = 0;
-    std::string* text = nullptr;
-  };
-  std::vector<Label> kept;
-  for (PlotCurve& curve : panel.curves)
-    for (std::size_t i = 0; i < curve.x.size(); ++i) {
-      const auto close = [&](const Label& l) {
-        return std::abs(std::log(curve.x[i] / l.x)) < 0.3 && std::abs(curve.y[i] - l.y) < 0.06 * largest_y;
-      };
-      const auto found = std::find_if(kept.begin(), kept.end(), close);
-      if (found == kept.end()) {
-        kept.push_back({curve.x[i], curve.y[i], &curve.point_labels[i]});
-        continue;
-      }
-      *found->text += ", " + curve.point_labels[i];
-      curve.point_labels[i].clear();
-    }
+// Of the picture, where the axes are drawn: near enough to tell what would cover what.
+constexpr PlacePx axes_px{555, 222};
+
+/// The next below or above of 1, 2 and 5 times a power of ten.
+double round_value(double value, bool up) {
+  const double decade = std::pow(10, std::floor(std::log10(value)));
+  const std::array<double, 4> steps{decade, 2 * decade, 5 * decade, 10 * decade};
+  if (up) return *std::find_if(steps.begin(), steps.end(), [&](double step) { return step >= value; });
+  return *std::find_if(steps.rbegin(), steps.rend(), [&](double step) { return step <= value; });
+}
+
+/// Ranges that hold all points and leave room for names, which are put where none covers another.
+void name_points(PlotPanel& panel, const std::vector<std::string>& names) {
+  std::vector<std::pair<double, double>> points;
+  for (const PlotCurve& curve : panel.curves)
+    for (std::size_t i = 0; i < curve.x.size(); ++i) points.emplace_back(curve.x[i], curve.y[i]);
+  const auto [least, most] = std::minmax_element(points.begin(), points.end());
+  const double begin = round_value(least->first / 1.2, false);
+  const double decades = std::log10(round_value(most->first * 1.2, true) / begin);
+  double top = 0;
+  for (const auto& [x, y] : points) top = std::max(top, 1.1 * y);
+  panel.x_range = {begin, begin * std::pow(10, decades)};
+  panel.y_range = {0.0, top};
+  std::vector<NamedPoint> named;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    named.push_back(
+        {{axes_px.x * std::log10(points[i].first / begin) / decades, axes_px.y * points[i].second / top}, names[i]});
+  const auto x_of = [&](PlacePx px) { return begin * std::pow(10, decades * px.x / axes_px.x); };
+  const auto y_of = [&](PlacePx px) { return top * px.y / axes_px.y; };
+  const std::vector<NamePlace> places = place_names(named, axes_px);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const NamePlace& place = places[i];
+    panel.names.push_back({names[i], x_of(place.centre), y_of(place.centre)});
+    if (!place.apart) continue;
+    PlotCurve line;
+    line.look = CurveLook::leader;
+    line.x = {points[i].first, x_of(place.line_end)};
+    line.y = {points[i].second, y_of(place.line_end)};
+    panel.curves.push_back(std::move(line));
+  }
 }
 
 /// A point a run; runs that lack one of the two are named in left_out.
 struct CostPoints {
   PlotPanel panel;
-  std::size_t points = 0;
-  double largest = 0;
+  std::vector<std::string> names;
   std::string left_out;
 };
 
@@ -106,7 +127,6 @@ CostPoints cost_points(const ReportData& data) {
   out.panel.x_label = "processor time of the run [min]";
   out.panel.y_label = "mean deviation of impulses [%]";
   out.panel.log_x = true;
-  out.panel.y_range = {0.0, std::nullopt};
   int style = 0;
   for (const RunGroup& group : run_groups(data, data.runs.size())) {
     PlotCurve curve;
@@ -122,10 +142,8 @@ CostPoints cost_points(const ReportData& data) {
       }
       curve.x.push_back(*seconds / 60);
       curve.y.push_back(100 * *error);
-      curve.point_labels.push_back(run->key);
-      out.largest = std::max(out.largest, curve.y.back());
+      out.names.push_back(run->key);
     }
-    out.points += curve.x.size();
     if (!curve.x.empty()) out.panel.curves.push_back(std::move(curve));
   }
   return out;
@@ -136,8 +154,8 @@ CostPoints cost_points(const ReportData& data) {
 std::vector<Picture> cost_figures(const FigureMaker& maker) {
   if (!maker.enabled) return {};
   CostPoints cost = cost_points(maker.data);
-  if (cost.points < 2) return {};
-  merge_labels(cost.panel, cost.largest);
+  if (cost.names.size() < 2) return {};
+  name_points(cost.panel, cost.names);
   PlotFigure figure;
   figure.name = "error_and_cost";
   figure.source = "primary readings";

@@ -42,6 +42,8 @@ std::string line_style(const PlotCurve& curve) {
       return "lines lw 2.2 lc rgb '#000000' dt solid";
     case CurveLook::guide:
       return "lines lw 1 lc rgb '#9AA5AB' dt (6,4)";
+    case CurveLook::leader:
+      return "lines lw 0.8 lc rgb '#9AA5AB' dt solid";
     case CurveLook::published:
       return curve.points_only ? "points pt 6 ps 1.1 lw 1.6 lc rgb '#555555'"
                                : "linespoints pt 6 ps 1.1 lw 1.6 lc rgb '#555555' dt (4,4)" + markers;
@@ -51,6 +53,10 @@ std::string line_style(const PlotCurve& curve) {
   if (curve.points_only) return fmt::format("points pt {} ps 1.1 lc rgb '{}'", look.marker, look.colour);
   return fmt::format("linespoints pt {} ps 0.8 lw 1.5 lc rgb '{}' dt {}{}", look.marker, look.colour, look.dashes,
                      markers);
+}
+
+bool has_entry(const PlotCurve& curve) {
+  return curve.look != CurveLook::guide && curve.look != CurveLook::leader;
 }
 
 /// Data blocks in the order in which the script refers to them by index.
@@ -133,10 +139,20 @@ void add_curve(const PlotCurve& curve, const std::string& data_name, DataFile& d
     return;
   }
   plots.push_back(fmt::format("'{}' index {} using 1:2 with {} {}", data_name, data.index(), line_style(curve),
-                              plot_title(curve.look == CurveLook::guide ? "" : curve.label)));
+                              plot_title(has_entry(curve) ? curve.label : "")));
   if (!curve.point_labels.empty())
     plots.push_back(
         fmt::format("'{}' index {} using 1:2:3 with labels offset 0.8,0.6 left notitle", data_name, data.index()));
+}
+
+void add_names(const std::vector<PlotName>& names, const std::string& data_name, DataFile& data,
+               std::vector<std::string>& plots) {
+  if (names.empty()) return;
+  data.begin("names");
+  for (const PlotName& name : names) data.labelled_row(name.x, name.y, name.text);
+  data.take_rows();
+  plots.push_back(
+      fmt::format("'{}' index {} using 1:2:3 with labels center font ',13' notitle", data_name, data.index()));
 }
 
 std::string tick_words(const std::vector<std::string>& words) {
@@ -175,6 +191,7 @@ std::string panel_script(const PlotPanel& panel, const std::string& data_name, D
   std::vector<std::string> plots;
   for (const PlotBand& band : panel.bands) add_band(band, data_name, data, plots);
   for (const PlotCurve& curve : panel.curves) add_curve(curve, data_name, data, plots);
+  add_names(panel.names, data_name, data, plots);
   if (plots.empty())
     return out + "set label 1 'no data' at graph 0.5,0.5 center\nplot [0:1] [0:1] 1/0 notitle\nunset label 1\n";
   out += "plot ";
@@ -191,7 +208,7 @@ set border 3 lc rgb '#40505A'
 set tics nomirror
 set grid back lc rgb '#E4E9EC' lw 0.8 dt solid
 set format '%g'
-set key below left reverse Left samplen 2.5 spacing 1.15 maxcols {4} font ',14' height 0.6 enhanced
+set key below left reverse Left samplen 2 spacing 1.15 maxcols {4} font ',13' height 0.6 enhanced
 set title font ',15' offset 0,-0.4
 set offsets 0,0,graph 0.05,graph 0.05
 )";
@@ -200,14 +217,13 @@ set offsets 0,0,graph 0.05,graph 0.05
 
 namespace {
 
-/// Of UTF-8 text: bytes that do not continue a character.
-std::size_t characters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 constexpr int legend_row_px = 23;
 constexpr int legend_gap_px = 14;
-constexpr std::size_t longest_in_two_columns = 29;  // characters, at 640 px
+
+/// The longest entries, in characters, of which gnuplot puts two beside each other (measured at 320 to 960 px).
+std::size_t longest_in_two_columns(int panel_width_px) {
+  return static_cast<std::size_t>(std::max(0.0, (panel_width_px - 124) / 18.4));
+}
 
 /// Legends stand below the panels, so that they never hide a curve: two columns where the longest entry lets them.
 struct Legend {
@@ -216,6 +232,7 @@ struct Legend {
 };
 
 Legend legend_of(const PlotFigure& figure) {
+  const std::size_t longest = longest_in_two_columns(figure.panel_width_px);
   Legend legend;
   int entries = 0;
   for (const PlotPanel& panel : figure.panels) {
@@ -223,10 +240,10 @@ Legend legend_of(const PlotFigure& figure) {
     auto count = [&](const std::string& label) {
       if (label.empty()) return;
       ++own;
-      if (characters(label) > longest_in_two_columns) legend.columns = 1;
+      if (characters(label) > longest) legend.columns = 1;
     };
     for (const PlotBand& band : panel.bands) count(band.label);
-    for (const PlotCurve& curve : panel.curves) count(curve.look == CurveLook::guide ? "" : curve.label);
+    for (const PlotCurve& curve : panel.curves) count(has_entry(curve) ? curve.label : "");
     entries = std::max(entries, own);
   }
   legend.rows = (entries + legend.columns - 1) / legend.columns;

@@ -14,7 +14,8 @@ enum class CurveLook {
   run,         ///< colour, dashes and marker by the curve's `style`
   experiment,  ///< thick black line
   published,   ///< grey, open markers
-  guide        ///< thin grey line without a legend entry
+  guide,       ///< thin grey dashes without a legend entry
+  leader       ///< thin grey line from a point to its name, likewise
 };
 
 struct PlotCurve {
@@ -26,6 +27,13 @@ struct PlotCurve {
   bool points_only = false;
   bool every_point = false;               ///< a marker at every point; otherwise a few along the line
   std::vector<std::string> point_labels;  ///< one a point, or none
+};
+
+/// A word centred at a place.
+struct PlotName {
+  std::string text;
+  double x = 0;
+  double y = 0;
 };
 
 /// A shaded area between two curves.
@@ -50,15 +58,16 @@ struct PlotPanel {
   bool slanted_ticks = false;        ///< long words: written at an angle
   std::vector<PlotBand> bands;
   std::vector<PlotCurve> curves;
+  std::vector<PlotName> names;
   bool equal_scale = false;  ///< a length is as long across as it is up: for drawings of bodies
 };
 
 struct PlotFigure {
   std::string name;
   std::vector<PlotPanel> panels;
-  int columns = 1;  ///< panels side by side
-  int panel_width_px = 640;
-  int panel_height_px = 320;  ///< the legend below comes on top
+  int columns = 1;            ///< panels side by side
+  int panel_width_px = 664;   ///< two legend entries of 29 characters have room beside each other
+  int panel_height_px = 320;  ///< without the legend below, for which room is added
   std::string source;         ///< a comment in the script: which runs, which commit
 };
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -87,6 +88,37 @@ TEST(Draw, MoreCurvesThanColoursStayApart) {
     if (const auto at = line.find("points pt"); at != std::string::npos)
       looks.insert(line.substr(at, line.find('\'', line.find('\'', at) + 1) - at));
   EXPECT_EQ(looks.size(), 12u);
+}
+
+/// Where a text stands in a drawing, from the top.
+double height_of_text(const std::string& svg, const std::string& text) {
+  const std::regex place("translate\\([-0-9.]+,([-0-9.]+)\\)\"[^>]*>\\s*<text><tspan[^>]*>" + text + "<");
+  std::smatch found;
+  return std::regex_search(svg, found, place) ? std::stod(found[1]) : NAN;
+}
+
+/// However long the entries of a legend, and however many: the axes keep their height, and the last entry has room.
+TEST(Draw, ALegendTakesNothingFromThePanel) {
+  for (const int width_px : {480, 664, 960})
+    for (std::size_t length = 8; length <= 60; length += 4) {
+      PlotFigure figure;
+      figure.name = "legend";
+      figure.panel_width_px = width_px;
+      figure.panels.resize(1);
+      figure.panels[0].x_label = "time";
+      for (int k = 0; k < 7; ++k)
+        figure.panels[0].curves.push_back(
+            {std::string(length - 1, 'm') + std::to_string(k), {0, 1}, {0, 1}, CurveLook::run, 0, false, false, {}});
+      const std::string svg = read(draw(figure, folder("legend")));
+      const double axis_px = height_of_text(svg, "time");
+      EXPECT_GT(axis_px, 270) << width_px << " " << length;
+      EXPECT_LT(axis_px, 330) << width_px << " " << length;
+      std::smatch size;
+      ASSERT_TRUE(std::regex_search(svg, size, std::regex("viewBox=\"0 0 [0-9]+ ([0-9]+)\"")));
+      for (int k = 0; k < 7; ++k)
+        EXPECT_LT(height_of_text(svg, std::string(length - 1, 'm') + std::to_string(k)), std::stod(size[1]))
+            << width_px << " " << length << " " << k;
+    }
 }
 
 /// Names of runs come from other people's files.

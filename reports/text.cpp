@@ -75,6 +75,10 @@ std::string duration(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
+std::size_t characters(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
 std::string grouped(long long value) {
   const std::string digits = std::to_string(std::llabs(value));
   std::string out = value < 0 ? minus : "";

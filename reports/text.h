@@ -36,6 +36,9 @@ std::string grouped(long long value);
 /// Bytes as "12.3 MB" (powers of ten).
 std::string bytes(double count);
 
+/// How many characters UTF-8 text has: bytes that do not continue one.
+std::size_t characters(std::string_view text);
+
 std::string escape_html(std::string_view text);
 std::string escape_markdown_cell(std::string_view text);
 std::string escape_latex(std::string_view text);

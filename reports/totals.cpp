@@ -89,8 +89,10 @@ std::vector<Picture> conservation_figures(const FigureMaker& maker) {
   if (!maker.enabled) return pictures;
   int index = 0;
   for (const RunGroup& group : run_groups(maker.data, runs_a_panel)) {
-    PlotPanel energies{group.title, "time [s]", "energy / energy at the start [%]", {}, {}, false, false, {}, false,
-                       {},          {}};
+    PlotPanel energies;
+    energies.title = group.title;
+    energies.x_label = "time [s]";
+    energies.y_label = "energy / energy at the start [%]";
     PlotPanel ratios = energies;
     ratios.y_label = "greatest density ratio";
     std::string source;

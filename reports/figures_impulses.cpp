@@ -156,7 +156,6 @@ std::vector<Picture> impulse_figures(const FigureMaker& maker) {
   figure.name = "impulse_overview";
   figure.source = "primary readings";
   figure.panel_width_px = 960;
-  figure.panel_height_px = 400;
   figure.panels = {panel};
   return {draw_picture(
       maker, figure,

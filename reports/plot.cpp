@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 
 #include "reports/gnuplot.h"
+#include "reports/plot_room.h"
 #include "reports/text.h"
 #include "validation/printable.h"
 
@@ -53,10 +55,6 @@ std::string line_style(const PlotCurve& curve) {
   if (curve.points_only) return fmt::format("points pt {} ps 1.1 lc rgb '{}'", look.marker, look.colour);
   return fmt::format("linespoints pt {} ps 0.8 lw 1.5 lc rgb '{}' dt {}{}", look.marker, look.colour, look.dashes,
                      markers);
-}
-
-bool has_entry(const PlotCurve& curve) {
-  return curve.look != CurveLook::guide && curve.look != CurveLook::leader;
 }
 
 /// Data blocks in the order in which the script refers to them by index.
@@ -170,10 +168,23 @@ std::string between_decades() {
   return out;
 }
 
-std::string axis_scale(char axis, bool log) {
+std::string axis_scale(char axis, bool log, bool room_between_decades) {
   if (!log) return fmt::format("unset logscale {0}\nset {0}tics autofreq nomirror\n", axis);
-  return fmt::format("set logscale {0}\nset {0}tics autofreq nomirror\nset {0}tics add ({1})\n", axis,
-                     between_decades());
+  return fmt::format("set logscale {0}\nset {0}tics autofreq nomirror\n{1}", axis,
+                     room_between_decades ? fmt::format("set {}tics add ({})\n", axis, between_decades()) : "");
+}
+
+/// Of the points; numbers under an axis stand side by side.
+double decades_across(const PlotPanel& panel) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (const PlotCurve& curve : panel.curves)
+    for (const double x : curve.x) {
+      if (!(x > 0)) continue;
+      least = std::min(least, x);
+      most = std::max(most, x);
+    }
+  return most > least ? std::log10(most / least) : 0;
 }
 
 std::string panel_script(const PlotPanel& panel, const std::string& data_name, DataFile& data) {
@@ -182,7 +193,7 @@ std::string panel_script(const PlotPanel& panel, const std::string& data_name, D
   out += fmt::format("set xlabel \"{}\" offset 0,0.4\nset ylabel \"{}\"\n", escape_gnuplot(panel.x_label),
                      escape_gnuplot(panel.y_label));
   out += fmt::format("set xrange {}\nset yrange {}\n", range_text(panel.x_range), range_text(panel.y_range));
-  out += axis_scale('x', panel.log_x) + axis_scale('y', panel.log_y);
+  out += axis_scale('x', panel.log_x, decades_across(panel) < 2.5) + axis_scale('y', panel.log_y, true);
   if (!panel.x_ticks.empty())
     out += fmt::format("set xtics nomirror {} ({})\n", panel.slanted_ticks ? "rotate by 32 right" : "norotate",
                        tick_words(panel.x_ticks));
@@ -215,54 +226,16 @@ set offsets 0,0,graph 0.05,graph 0.05
 
 }  // namespace
 
-namespace {
-
-constexpr int legend_row_px = 23;
-constexpr int legend_gap_px = 14;
-
-/// The longest entries, in characters, of which gnuplot puts two beside each other (measured at 320 to 960 px).
-std::size_t longest_in_two_columns(int panel_width_px) {
-  return static_cast<std::size_t>(std::max(0.0, (panel_width_px - 124) / 18.4));
-}
-
-/// Legends stand below the panels, so that they never hide a curve: two columns where the longest entry lets them.
-struct Legend {
-  int columns = 2;
-  int rows = 0;
-};
-
-Legend legend_of(const PlotFigure& figure) {
-  const std::size_t longest = longest_in_two_columns(figure.panel_width_px);
-  Legend legend;
-  int entries = 0;
-  for (const PlotPanel& panel : figure.panels) {
-    int own = 0;
-    auto count = [&](const std::string& label) {
-      if (label.empty()) return;
-      ++own;
-      if (characters(label) > longest) legend.columns = 1;
-    };
-    for (const PlotBand& band : panel.bands) count(band.label);
-    for (const PlotCurve& curve : panel.curves) count(has_entry(curve) ? curve.label : "");
-    entries = std::max(entries, own);
-  }
-  legend.rows = (entries + legend.columns - 1) / legend.columns;
-  return legend;
-}
-
-}  // namespace
-
 std::filesystem::path draw(const PlotFigure& figure, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const int columns = std::max(1, figure.columns);
   const int panels = static_cast<int>(figure.panels.size());
   const int rows = std::max(1, (panels + columns - 1) / columns);
   DataFile data(folder / (figure.name + ".dat"));
-  const Legend legend = legend_of(figure);
-  const int panel_height = figure.panel_height_px + legend_row_px * legend.rows + legend_gap_px;
-  std::string script =
-      fmt::format(fmt::runtime(script_head), figure.name, printable(figure.source, 2000),
-                  figure.panel_width_px * std::min(columns, std::max(1, panels)), panel_height * rows, legend.columns);
+  const PanelRoom room = room_of(figure);
+  std::string script = fmt::format(fmt::runtime(script_head), figure.name, printable(figure.source, 2000),
+                                   figure.panel_width_px * std::min(columns, std::max(1, panels)),
+                                   room.height_px * rows, room.legend_columns);
   const bool several = panels > 1;
   if (several) script += fmt::format("set multiplot layout {},{}\n", rows, columns);
   for (const PlotPanel& panel : figure.panels) script += panel_script(panel, figure.name + ".dat", data);

@@ -67,7 +67,7 @@ struct PlotFigure {
   std::vector<PlotPanel> panels;
   int columns = 1;            ///< panels side by side
   int panel_width_px = 664;   ///< two legend entries of 29 characters have room beside each other
-  int panel_height_px = 320;  ///< without the legend below, for which room is added
+  int panel_height_px = 320;  ///< without the legend and slanted words below, for which room is added
   std::string source;         ///< a comment in the script: which runs, which commit
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "reports/figures.h"
 #include "reports/name_places.h"
@@ -23,6 +24,18 @@ std::string runs_label(const std::vector<const AnalysedRun*>& runs) {
 }  // namespace
 
 namespace {
+
+/// Markers at the finest and at the coarsest distance stand inside the axes.
+PlotRange with_margin(const ResolutionSeries& series) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (const AnalysedRun* run : series.runs) {
+    least = std::min(least, 1000 * run->record.l0_m);
+    most = std::max(most, 1000 * run->record.l0_m);
+  }
+  const double margin = 0.04 * (most - least);
+  return {least - margin, most + margin};
+}
 
 /// Curves of errors or of values; their unit is cut off an error's name, for the axis has it.
 PlotPanel resolution_panel(const ReportData& data, const ResolutionSeries& series, bool values) {
@@ -45,6 +58,7 @@ PlotPanel resolution_panel(const ReportData& data, const ResolutionSeries& serie
     }
     panel.curves.push_back(std::move(curve));
   }
+  panel.x_range = with_margin(series);
   return panel;
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -90,25 +89,18 @@ namespace {
 // Of the picture, where the axes are drawn: near enough to tell what would cover what.
 constexpr PlacePx axes_px{555, 222};
 
-/// The next below or above of 1, 2 and 5 times a power of ten.
-double round_value(double value, bool up) {
-  const double decade = std::pow(10, std::floor(std::log10(value)));
-  const std::array<double, 4> steps{decade, 2 * decade, 5 * decade, 10 * decade};
-  if (up) return *std::find_if(steps.begin(), steps.end(), [&](double step) { return step >= value; });
-  return *std::find_if(steps.rbegin(), steps.rend(), [&](double step) { return step <= value; });
-}
-
 /// Ranges that hold all points and leave room for names, which are put where none covers another.
 void name_points(PlotPanel& panel, const std::vector<std::string>& names) {
   std::vector<std::pair<double, double>> points;
   for (const PlotCurve& curve : panel.curves)
     for (std::size_t i = 0; i < curve.x.size(); ++i) points.emplace_back(curve.x[i], curve.y[i]);
   const auto [least, most] = std::minmax_element(points.begin(), points.end());
-  const double begin = round_value(least->first / 1.2, false);
-  const double decades = std::log10(round_value(most->first * 1.2, true) / begin);
-  double top = 0;
+  const double begin = least->first / 2;
+  const double end = 2 * most->first;
+  const double decades = std::log10(end / begin);
+  double top = 0.1;  // an axis needs a length where all errors are zero
   for (const auto& [x, y] : points) top = std::max(top, 1.1 * y);
-  panel.x_range = {begin, begin * std::pow(10, decades)};
+  panel.x_range = {begin, end};
   panel.y_range = {0.0, top};
   std::vector<NamedPoint> named;
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -26,6 +26,10 @@ struct NameBox {
   double height_px = 0;
 };
 
+NameBox box_around(const std::string& name, PlacePx centre) {
+  return {centre, character_px * static_cast<double>(characters(name)), line_px};
+}
+
 double common_length(double a, double a_length, double b, double b_length) {
   const double begin = std::max(a - a_length / 2, b - b_length / 2);
   const double end = std::min(a + a_length / 2, b + b_length / 2);
@@ -55,7 +59,7 @@ PlacePx edge_towards(const NameBox& box, PlacePx point) {
 
 /// The nearest place that covers nothing, or the one that covers least.
 NamePlace best_place(const NamedPoint& point, const std::vector<NameBox>& taken, PlacePx area) {
-  NameBox box{{}, character_px * static_cast<double>(characters(point.name)), line_px};
+  NameBox box = box_around(point.name, point.at);
   NamePlace best;
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step < steps_away && least > 0; ++step)
@@ -78,7 +82,7 @@ std::vector<NamePlace> place_names(const std::vector<NamedPoint>& points, PlaceP
   std::vector<NamePlace> places;
   for (const NamedPoint& point : points) {
     places.push_back(best_place(point, taken, area_px));
-    taken.push_back({places.back().centre, character_px * static_cast<double>(characters(point.name)), line_px});
+    taken.push_back(box_around(point.name, places.back().centre));
   }
   return places;
 }

@@ -105,7 +105,7 @@ RowIndex::Stencil RowIndex::stencil(const RowGeometry& g) {
       s.z_offset[k] = offset(z);
       s.y_slope[k] = slope(y);
       s.z_slope[k] = slope(z);
-      s.base[k] = (z * g.ny + y) * (g.nx + 1);
+      s.base[k] = g.row_at(y, z) * (g.nx + 1);
     }
   }
   s.per_slice = static_cast<float>(1.0 / g.slice_m);
@@ -116,7 +116,7 @@ RowIndex::Stencil RowIndex::stencil(const RowGeometry& g) {
 RowIndex::Row RowIndex::row_search(std::int32_t row_y, std::int32_t row_z) const {
   const RowGeometry& g = geometry_;
   return {g.domain.lower.y + (row_y - reach_rows) * g.edge_m, g.domain.lower.z + (row_z - reach_rows) * g.edge_m,
-          &start_[at(row_z * g.ny + row_y, 0)]};
+          &start_[at(g.row_at(row_y, row_z), 0)]};
 }
 
 /// All rows at once: the chord that the kernel's sphere cuts out of each gives the slices to visit.
@@ -168,7 +168,7 @@ bool RowIndex::any_near(const Vec3d& point) const {
   const auto high = std::min(g.nx - 1, static_cast<std::int32_t>((x0 + reach) * g.slices_per_m));
   for (std::int32_t z = jz - reach_rows; z <= jz + reach_rows; ++z) {
     for (std::int32_t y = jy - reach_rows; y <= jy + reach_rows; ++y) {
-      const std::int32_t row = z * g.ny + y;
+      const std::int32_t row = g.row_at(y, z);
       if (start_[at(row, low)] < start_[at(row, high + 1)]) return true;
     }
   }
@@ -199,7 +199,7 @@ Proximity::Proximity(const RowIndex& index) : geometry_(index.geometry()) {
     constexpr std::int32_t far = reach_rows;
     for (std::int32_t z = -far; z <= far; ++z) {
       for (std::int32_t y = -far; y <= far; ++y) {
-        const std::int32_t other = row + z * g.ny + y;
+        const std::int32_t other = row + g.row_at(y, z);
         std::uint8_t* const near = &near_[static_cast<std::size_t>(other) * static_cast<std::size_t>(g.nx)];
         for (std::size_t s = 0; s < in_reach.size(); ++s) near[s] |= in_reach[s];
       }

@@ -57,7 +57,10 @@ struct RowGeometry {
   std::int32_t row_z(double z) const {
     return static_cast<std::int32_t>((z - domain.lower.z) * rows_per_m) + reach_rows;
   }
-  std::int32_t row(double y, double z) const { return row_z(z) * ny + row_y(y); }
+  /// Rows one above the other lie together in memory: water is flat, so that the rows around a particle are nearer to
+  /// one another than if those beside each other did.
+  std::int32_t row_at(std::int32_t row_y, std::int32_t row_z) const { return row_y * nz + row_z; }
+  std::int32_t row(double y, double z) const { return row_at(row_y(y), row_z(z)); }
   std::int32_t slice(double x) const { return static_cast<std::int32_t>((x - domain.lower.x) * slices_per_m); }
 };
 

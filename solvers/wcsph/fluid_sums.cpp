@@ -221,7 +221,7 @@ StepLimits sum_fluid_rates(Particles<Pack>& fluid, const Sorted<Pack>& fluid_nei
       for (std::int32_t b = 0; b < blocks.count(colour); ++b) {
         const auto [slab, slice] = blocks.place(colour, b);
         for (std::int32_t z = 0; z < geometry.nz; ++z) {
-          const std::int32_t row = z * geometry.ny + slab;
+          const std::int32_t row = geometry.row_at(slab, z);
           const Run targets = fluid_neighbours.index.slices(row, slice, std::min(slice + blocks.length, geometry.nx));
           sums.sum(targets, slab, z, blocks.free_slice(slice));
         }

@@ -33,6 +33,7 @@ void NeighbourList<Pack>::list(Particles<Pack>& particles, const SearchSet& flui
   collectors_.resize(static_cast<std::size_t>(threads));
   const auto least_near_weight = static_cast<Real>(reach.effective_radius_m / reach.near_radius_m - 1);
   dummies_.resize(particles.size());
+  count_.resize(particles.size());
   near_weight_.resize(particles.size());
   far_weight_.resize(particles.size());
   near_.reserve(particles.size(), expected_near * (particles.fluid + particles.walls / 2));
@@ -54,16 +55,21 @@ void NeighbourList<Pack>::list(Particles<Pack>& particles, const SearchSet& flui
         const Vec3d x = particles.position.template at<double>(i);
         c.clear();
         if (particles.is_fluid(i) || fluid.index.any_near(x)) {
-          c.add(particles, i, fluid);
-          if (walls.proximity->any_near(x)) c.add(particles, i, walls);
+          c.find(particles, i, fluid);
+          if (walls.proximity->any_near(x)) c.find(particles, i, walls);
+          c.weigh(particles, i, 0);
         }
         c.part_near(least_near_weight);
         near_writer.write(i, c.near_column.data(), c.near_weight.data(), c.near);
         const std::size_t with_pressure = c.count;
         near_weight_[i] = sum_of<Pack>(c.near_weight, c.near);
         far_weight_[i] = sum_of<Pack>(c.weight, c.count);
-        if (c.near + c.count > 0 && dummies.proximity->any_near(x)) c.add(particles, i, dummies);
+        if (c.near + c.count > 0 && dummies.proximity->any_near(x)) {
+          c.find(particles, i, dummies);
+          c.weigh(particles, i, with_pressure);
+        }
         dummies_[i] = static_cast<std::uint16_t>(c.count - with_pressure);
+        count_[i] = static_cast<std::uint16_t>(c.near + c.within());
         far_writer.write(i, c.column.data(), c.weight.data(), c.count, with_pressure);
         finish_sums(particles, i, c, reach.quantum_m);
       }
@@ -80,9 +86,10 @@ void NeighbourList<Pack>::Collector::clear() {
 
 template <class Pack>
 void NeighbourList<Pack>::Collector::make_room(std::size_t wanted) {
-  if (column.size() >= wanted) return;
-  column.resize(2 * wanted);
-  weight.resize(2 * wanted);
+  const std::size_t room = wanted + Lanes<Pack>::width;  // packs are read and written whole
+  if (column.size() >= room) return;
+  column.resize(2 * room);
+  weight.resize(2 * room);
 }
 
 template <class Pack>
@@ -103,43 +110,61 @@ void NeighbourList<Pack>::Collector::part_near(Real least_weight) {
   count = far;
 }
 
-/// Weights and sums of whole packs of candidates; then, lane by lane and without a branch, what is within reach is
-/// kept. The particle itself is the one at distance zero.
+/// Distances of whole packs of candidates; then, lane by lane and without a branch, what is within reach is kept. The
+/// particle itself is the one at distance zero.
 template <class Pack>
-void NeighbourList<Pack>::Collector::add(const Particles<Pack>& particles, std::size_t self, const SearchSet& set) {
+void NeighbourList<Pack>::Collector::find(const Particles<Pack>& particles, std::size_t self, const SearchSet& set) {
+  using L = Lanes<Pack>;
+  const auto& at = particles.coordinate;
+  std::array<std::int32_t, L::width> near;
+  for (const Run& run : set.index.neighbours(particles.position.template at<double>(self), 0.0)) {
+    const auto first = set.first + static_cast<std::size_t>(run.begin);
+    const auto length = static_cast<std::size_t>(run.end - run.begin);
+    make_room(count + length);
+    std::int32_t* const columns = column.data();
+    std::size_t kept = count;
+    for (std::size_t m = 0; m < length; m += L::width) {
+      const Vec3<Pack> r{L::difference(&at.x[first + m], at.x[self]), L::difference(&at.y[first + m], at.y[self]),
+                         L::difference(&at.z[first + m], at.z[self])};
+      L::store_between(dot(r, r), Real{}, list_radius2, near.data());
+      const std::size_t lanes = std::min<std::size_t>(L::width, length - m);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        columns[kept] = static_cast<std::int32_t>(first + m + lane);
+        kept += static_cast<std::size_t>(near[lane]);
+      }
+    }
+    count = kept;
+  }
+}
+
+/// Most candidates are out of reach: so roots and quotients are taken of what was kept.
+template <class Pack>
+void NeighbourList<Pack>::Collector::weigh(const Particles<Pack>& particles, std::size_t self, std::size_t begin) {
   using L = Lanes<Pack>;
   const auto& at = particles.coordinate;
   Pack sum = weights;  // local, or each pack would wait for the one before to reach memory
   Vec3<Pack> moments = moment;
-  std::array<std::int32_t, L::width> near;
-  std::array<Real, L::width> omega;
-  for (const Run& run : set.index.neighbours(particles.position.template at<double>(self), 0.0)) {
-    const auto first = set.first + static_cast<std::size_t>(run.begin);
-    const auto length = static_cast<std::size_t>(run.end - run.begin);
-    make_room(count + length + L::width);
-    for (std::size_t m = 0; m < length; m += L::width) {
-      const Vec3<Pack> r{L::difference(&at.x[first + m], at.x[self]), L::difference(&at.y[first + m], at.y[self]),
-                         L::difference(&at.z[first + m], at.z[self])};
-      const Pack lanes = L::first(static_cast<int>(std::min<std::size_t>(L::width, length - m)));
-      const Pack r2 = where_positive(lanes, dot(r, r));
-      const Pack w = where_positive(r2, mps::weight(square_root(r2), radius));
-      sum += w;
-      moments += w * r;
-      L::store_between(r2, Real{}, list_radius2, near.data());
-      L::store(w, omega.data());
-      std::int32_t* const columns = column.data() + count;
-      Real* const row_weights = weight.data() + count;
-      std::size_t kept = 0;
-      for (std::size_t lane = 0; lane < L::width; ++lane) {
-        columns[kept] = static_cast<std::int32_t>(first + m + lane);
-        row_weights[kept] = omega[lane];
-        kept += static_cast<std::size_t>(near[lane]);
-      }
-      count += kept;
-    }
+  std::array<std::int32_t, L::width> to;
+  for (std::size_t m = begin; m < count; m += L::width) {
+    const auto n = static_cast<int>(std::min<std::size_t>(L::width, count - m));
+    L::store(L::with_repeats(L::load(&column[m]), n), to.data());
+    const Vec3<Pack> r{L::difference_at(at.x.data(), to.data(), at.x[self]),
+                       L::difference_at(at.y.data(), to.data(), at.y[self]),
+                       L::difference_at(at.z.data(), to.data(), at.z[self])};
+    const Pack w = where_positive(L::first(n), mps::weight(square_root(dot(r, r)), radius));
+    sum += w;
+    moments += w * r;
+    L::store(w, &weight[m]);
   }
   weights = sum;
   moment = moments;
+}
+
+/// What is listed beyond the effective radius has no weight.
+template <class Pack>
+std::size_t NeighbourList<Pack>::Collector::within() const {
+  return static_cast<std::size_t>(
+      std::count_if(weight.begin(), weight.begin() + static_cast<std::ptrdiff_t>(count), [](Real w) { return w > 0; }));
 }
 
 /// n_i = sum omega_ij   [1]   Eq. (17);   sigma_i = |sum r_ij omega_ij| / n_i   [m]   Eq. (30)
@@ -155,7 +180,8 @@ void NeighbourList<Pack>::finish_sums(Particles<Pack>& particles, std::size_t i,
 
 template <class Pack>
 std::int64_t NeighbourList<Pack>::memory_bytes() const {
-  return near_.memory_bytes() + far_.memory_bytes() + bytes(dummies_) + bytes(near_weight_) + bytes(far_weight_);
+  return near_.memory_bytes() + far_.memory_bytes() + bytes(dummies_) + bytes(count_) + bytes(near_weight_) +
+         bytes(far_weight_);
 }
 
 template class NeighbourList<double>;

@@ -48,18 +48,22 @@ class NeighbourList {
   /// Sums of the weights of near neighbours, and of far ones that have a pressure.
   Real near_weight(std::size_t i) const { return near_weight_[i]; }
   Real far_weight(std::size_t i) const { return far_weight_[i]; }
-  std::uint32_t count(std::size_t i) const {
-    return near_.span(i).end - near_.span(i).begin + far_.span(i).end - far_.span(i).begin;
-  }
+  /// Neighbours within the effective radius, of all kinds.
+  std::uint32_t count(std::size_t i) const { return count_[i]; }
   std::int64_t memory_bytes() const;
 
  private:
   /// The row of one particle while it is filled. One a thread.
   struct Collector {
     void clear();
-    /// Adds the neighbours of a particle that lie in one set.
-    void add(const Particles<Pack>& particles, std::size_t self, const SearchSet& set);
+    /// Adds the neighbours of a particle that lie in one set, without weights.
+    void find(const Particles<Pack>& particles, std::size_t self, const SearchSet& set);
+    /// Weights and sums of those from `begin` on.
+    void weigh(const Particles<Pack>& particles, std::size_t self, std::size_t begin);
+    /// For a number of neighbours.
     void make_room(std::size_t wanted);
+    /// How many of the neighbours (after part_near(), of the far ones) lie within the effective radius.
+    std::size_t within() const;
     /// Takes the near ones out of the neighbours so far.
     void part_near(Real least_weight);
 
@@ -80,6 +84,7 @@ class NeighbourList {
   SparseRows<Real> near_;
   SparseRows<Real> far_;
   std::vector<std::uint16_t> dummies_;  ///< at the begin of each row of far_
+  std::vector<std::uint16_t> count_;
   std::vector<Real> near_weight_, far_weight_;
   std::vector<Collector> collectors_;
 };

@@ -21,7 +21,7 @@ struct OperatorConstants {
 };
 
 /// u* = u + dt (nu <laplacian u> + g)   [m/s]   Eq. (21), into `predicted`, for fluid particles; walls and dummies do
-/// not slip: they enter the sum with their velocity.
+/// not slip: they enter the sum with their velocity, as in the paper's Eq. (19), whose neighbours are all.
 template <class Pack>
 void predict_velocities(const Particles<Pack>& particles, const NeighbourList<Pack>& list, const OperatorConstants& c,
                         VectorField<typename Lanes<Pack>::Real>& predicted, int threads);

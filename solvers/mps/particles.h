@@ -1,6 +1,6 @@
 // The particles of an MPS run in one index space: dummy particles, then wall particles, then fluid, so that all that
-// have a pressure lie together. Only fluid particles move from place to place in it, when they are sorted, and only
-// they can leave.
+// have a pressure lie together. Fluid is sorted at every step, walls and dummies among themselves where a body moves;
+// only fluid can leave.
 #pragma once
 
 #include <cstdint>

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "solvers/fields.h"
@@ -79,8 +81,8 @@ class SparseRows {
 
    private:
     SparseRows& rows_;
-    std::size_t next_ = 0;
-    std::size_t last_ = 0;
+    std::size_t next_ = overread;  ///< of empty rows before the first block, too: packs may read before them
+    std::size_t last_ = overread;
   };
 
  private:
@@ -88,6 +90,8 @@ class SparseRows {
 
   std::size_t room() const { return columns_.empty() ? 0 : columns_.size() - overread; }
   void resize(std::size_t room) {
+    if (room + overread > std::numeric_limits<std::uint32_t>::max())
+      throw std::length_error("more than 4.2 billion pairs of neighbours, too many to index: choose a larger l0");
     columns_.resize(room + overread);
     values_.resize(room + overread);
   }

@@ -54,7 +54,8 @@ SceneLattice::SceneLattice(const SceneDescription& d) : d_(d), l0_(d.particle_di
   for (std::size_t k = 0; k < d.fluid.size(); ++k)
     fluid_.push_back(best_volume(d.fluid[k], fmt::format("fluid[{}]", k)));
   for (std::size_t k = 0; k < d.obstacles.size(); ++k)
-    obstacles_.push_back(nearest(d.obstacles[k], fmt::format("obstacle[{}]", k)));
+    obstacles_.push_back(nearest_obstacle(k, fmt::format("obstacle[{}]", k)));
+  refuse_shared_cells();
 }
 
 Vec3d SceneLattice::centre(const Index3& c) const {
@@ -101,17 +102,19 @@ CellBox SceneLattice::nearest(const Box& b, const std::string& name) const {
   return c;
 }
 
-CellBox SceneLattice::nearest(const Obstacle& o, const std::string& name) const {
+CellBox SceneLattice::nearest_obstacle(std::size_t k, const std::string& name) const {
+  const Obstacle& o = d_.obstacles[k];
   if (!o.thin) return nearest(o.box, name);
   CellBox c = rounded(o.box);
   for (int a = 0; a < 3; ++a)
-    if (c.upper[a] - c.lower[a] < least_plate_cells) thicken(c, o.box, a);
+    if (c.upper[a] - c.lower[a] < least_plate_cells) thicken(c, k, a);
   return c;
 }
 
-/// Of all places for a plate of the least thickness, the one that takes least of the fluid's space, and of those the
-/// one whose faces move least.
-void SceneLattice::thicken(CellBox& plate, const Box& nominal, int axis) const {
+/// Of all places for a plate of the least thickness, the one that takes least of the space of the fluid and of other
+/// obstacles, and of those the one whose faces move least.
+void SceneLattice::thicken(CellBox& plate, std::size_t k, int axis) const {
+  const Box& nominal = d_.obstacles[k].box;
   const double lower = in_cells(component(nominal.lower, axis), axis);
   const double upper = in_cells(component(nominal.upper, axis), axis);
   CellBox best = plate;
@@ -125,7 +128,7 @@ void SceneLattice::thicken(CellBox& plate, const Box& nominal, int axis) const {
       continue;
     const double moved = std::abs(static_cast<double>(tried.lower[axis]) - lower) +
                          std::abs(static_cast<double>(tried.upper[axis]) - upper);
-    const double cost = moved + 1e3 * fluid_cells_in(tried);
+    const double cost = moved + 1e3 * cells_taken(tried, k);
     if (cost >= least) continue;
     least = cost;
     best = tried;
@@ -133,10 +136,24 @@ void SceneLattice::thicken(CellBox& plate, const Box& nominal, int axis) const {
   plate = best;
 }
 
-double SceneLattice::fluid_cells_in(const CellBox& c) const {
+double SceneLattice::cells_taken(const CellBox& plate, std::size_t k) const {
   double cells = 0;
-  for (const CellBox& f : fluid_) cells += c.shared_with(f).cells();
+  for (const CellBox& f : fluid_) cells += plate.shared_with(f).cells();
+  for (std::size_t other = 0; other < d_.obstacles.size(); ++other)
+    if (other != k) cells += plate.shared_with(rounded(d_.obstacles[other].box)).cells();
   return cells;
+}
+
+/// Particles of two walls in one place would push twice, and lie at no distance from each other.
+void SceneLattice::refuse_shared_cells() const {
+  for (std::size_t k = 0; k < obstacles_.size(); ++k)
+    for (std::size_t other = 0; other < k; ++other) {
+      if (!(obstacles_[k].shared_with(obstacles_[other]).cells() > 0)) continue;
+      throw std::invalid_argument(fmt::format(
+          "{} and {} share space on the lattice at l0 = {} m, where a thin one is {} particles thick: choose "
+          "a smaller l0, or draw them further apart",
+          called(d_.obstacles[other], other), called(d_.obstacles[k], k), l0_, least_plate_cells));
+    }
 }
 
 /// Faces that lie on the tank follow the tank; free faces go down or up to a lattice plane, whichever combination

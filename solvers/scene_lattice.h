@@ -47,12 +47,13 @@ class SceneLattice {
   void require_cells(const CellBox& c, const std::string& name) const;
   CellBox rounded(const Box& b) const;
   CellBox nearest(const Box& b, const std::string& name) const;
-  CellBox nearest(const Obstacle& o, const std::string& name) const;
+  CellBox nearest_obstacle(std::size_t k, const std::string& name) const;
   CellBox best_volume(const Box& b, const std::string& name) const;
   CellBox faces(const Box& b, int choice) const;
   std::int64_t face(double x_m, int axis, bool up) const;
-  void thicken(CellBox& plate, const Box& nominal, int axis) const;
-  double fluid_cells_in(const CellBox& c) const;
+  void thicken(CellBox& plate, std::size_t k, int axis) const;
+  double cells_taken(const CellBox& plate, std::size_t k) const;
+  void refuse_shared_cells() const;
 
   const SceneDescription& d_;
   double l0_;

@@ -117,6 +117,28 @@ TEST(Scene, PlatesAreThreeParticlesThickAtLeastAndTakeNoneOfTheFluidsSpaceIfThey
   EXPECT_NEAR(fine.fitted.obstacles[0].box.lower.x, 0.575, 1e-9) << "five particles: as it is";
 }
 
+/// Two cells wide, it would grow into its frame along y.
+TEST(Scene, AGateTooNarrowForItsFrameIsRefused) {
+  SceneDescription d = gate_in_wall(0.02);
+  d.obstacles[0].box.upper.y = d.obstacles[1].box.lower.y = 0.26;
+  d.obstacles[1].name = "gate";
+  try {
+    build_scene(d);
+    FAIL();
+  } catch (const std::invalid_argument& e) {
+    EXPECT_NE(std::string(e.what()).find("gate"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("smaller l0"), std::string::npos) << e.what();
+  }
+}
+
+TEST(Scene, APlateGrowsAwayFromAnotherObstacle) {
+  SceneDescription d = gate_in_wall(0.02);
+  d.fluid.pop_back();
+  d.obstacles.push_back({.box = {{0.4, 0, 0}, {0.56, 0.4, 0.3}}});
+  const Scene scene = build_scene(d);
+  EXPECT_NEAR(scene.fitted.obstacles[0].box.lower.x, 0.56, 1e-9);
+}
+
 TEST(Scene, AGateThatSlidesInItsFrameHasDrySidesAndAWetBottom) {
   const double l0 = 0.02;
   const Scene scene = build_scene(gate_in_wall(l0));

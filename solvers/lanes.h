@@ -123,9 +123,10 @@ struct Lanes<FloatPack> {
   };
   [[gnu::always_inline]] static Window window(int n) { return {first(n) > FloatPack{}, n}; }
 
-  /// Adds the lanes of a window to memory; the memory behind them is not touched. AVX-512 stores under a mask as fast
-  /// as without; AVX2's masked stores are long microprograms on some processors (a Zen 1 spends a third of a time step
-  /// in them), so that what is whole is stored whole.
+  /// Adds the lanes of a window to memory; the memory behind them is not written. It is read whole, though
+  /// another thread may write there: what those lanes hold is dropped. AVX-512 stores under a mask as
+  /// fast as without; AVX2's masked stores are long microprograms on some processors (a Zen 1 spends a third of a time
+  /// step in them), so that what is whole is stored whole.
   [[gnu::always_inline]] static void add(float* p, FloatPack v, const Window& window) {
     const FloatPack sum = load(p) + v;
     if (width <= 8 && window.n == width) {

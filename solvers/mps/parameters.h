@@ -1,5 +1,6 @@
 // What a run of the MPS solver is given. Defaults are the paper's where it has the parameter: tolerated crowding,
-// collisions, contacts with walls and multigrid are this project's.
+// collisions, contacts with walls and multigrid are this project's, and that what has four neighbours or fewer lies at
+// the free surface (pressure_equation.cpp).
 #pragma once
 
 #include "solvers/vec3.h"

@@ -25,7 +25,8 @@ inline Scene small_dam_break(WallModel walls, double length = 0.8) {
   SceneDescription d = still_tank(0.04, length, 0.24, 0.4, 0.24, walls);
   d.fluid[0].lower.x = length - 0.3;
   if (length > 1) d.fluid[0].lower.x = 0.4;
-  d.obstacles = {{.box = {{0.2, 0.08, 0}, {0.28, 0.16, 0.08}}}};
+  // Wide enough to have an inside, so that fluid in it is told as lost.
+  d.obstacles = {{.box = {{0.16, 0.04, 0}, {0.32, 0.2, 0.12}}}};
   return build_scene(d);
 }
 

@@ -34,12 +34,13 @@ template <class Real>
 Convergence ConjugateGradients<Real>::solve(const PressureMatrix<Real>& A, std::span<const double> b,
                                             std::span<double> x, const PreconditionerCall<Real>& precondition,
                                             double tolerance, int most_iterations) {
-  for (auto* v : {&residual_, &direction_, &product_}) v->resize(A.end);
+  for (auto* v : {&residual_, &product_}) v->resize(A.end);
+  direction_.resize(A.end);
   history_.clear();
   double* const r = residual_.data();
-  double* const p = direction_.data();
+  Real* const p = direction_.data();
   double* const q = product_.data();
-  std::fill_n(p, A.begin, 0.0);  // columns below the first row are never read, but let them be numbers
+  std::fill_n(p, A.begin, Real{});  // columns below the first row are never read, but let them be numbers
   const double norm_b = std::sqrt(sum(A, [&](std::size_t i) { return b[i] * b[i]; }));
   if (norm_b == 0) {
     std::fill(x.begin(), x.end(), 0.0);
@@ -56,16 +57,16 @@ Convergence ConjugateGradients<Real>::solve(const PressureMatrix<Real>& A, std::
     const double rz = sum(A, [&](std::size_t i) { return r[i] * static_cast<double>(z[i]); });
     const double beta = k == 0 ? 0 : rz / rz_before;
     sum(A, [&](std::size_t i) {
-      p[i] = static_cast<double>(z[i]) + (k == 0 ? 0.0 : beta * p[i]);
+      p[i] = static_cast<Real>(static_cast<double>(z[i]) + (k == 0 ? 0.0 : beta * static_cast<double>(p[i])));
       return 0.0;
     });
     const double pq = sum(A, [&](std::size_t i) {
       q[i] = product(A, i, p);
-      return p[i] * q[i];
+      return static_cast<double>(p[i]) * q[i];
     });
     const double alpha = rz / pq;
     norm_r = std::sqrt(sum(A, [&](std::size_t i) {
-      x[i] += alpha * p[i];
+      x[i] += alpha * static_cast<double>(p[i]);
       r[i] -= alpha * q[i];
       return r[i] * r[i];
     }));

@@ -41,7 +41,8 @@ class ConjugateGradients {
   double sum(const PressureMatrix<Real>& A, Term&& term);
 
   int threads_;
-  std::vector<double> residual_, direction_, product_, partial_;
+  std::vector<double> residual_, product_, partial_;
+  std::vector<Real> direction_;
   std::vector<double> history_;
 };
 

@@ -242,7 +242,7 @@ void Multigrid<Real>::restrict_residual(Level& fine, Level& coarse) {
       fine.scratch[i] = fine.coarse[i] < 0
                             ? 0
                             : fine.b[i] - fine.matrix.near_diagonal[i] * fine.x[i] +
-                                  fine.matrix.near_factor * off_diagonal(fine.matrix.near, i, fine.x.data());
+                                  fine.matrix.near_factor * off_diagonal<Real>(fine.matrix.near, i, fine.x.data());
     }
 #pragma omp for schedule(static, rows_at_once)
     for (std::int64_t c = 0; c < cells; ++c) {
@@ -271,7 +271,7 @@ void Multigrid<Real>::correct_and_smooth(Level& fine, const Level& coarse) {
     for (auto k = static_cast<std::int64_t>(fine.begin()); k < n; ++k) {
       const auto i = static_cast<std::size_t>(k);
       if (fine.coarse[i] < 0) continue;
-      fine.x[i] = (fine.b[i] + fine.matrix.near_factor * off_diagonal(fine.matrix.near, i, fine.scratch.data())) /
+      fine.x[i] = (fine.b[i] + fine.matrix.near_factor * off_diagonal<Real>(fine.matrix.near, i, fine.scratch.data())) /
                   fine.matrix.near_diagonal[i];
     }
   }

@@ -35,26 +35,26 @@ struct PressureMatrix {
   bool has_far() const { return !far.rows.empty(); }
 };
 
-/// sum_j omega_ij x_j of row i, in two sums side by side.
-template <class Real, class Value>
-[[gnu::always_inline]] inline Value off_diagonal(const Entries<Real>& entries, std::size_t i, const Value* x) {
+/// sum_j omega_ij x_j of row i, in two sums side by side of the precision asked for.
+template <class Value, class Real, class Element>
+[[gnu::always_inline]] inline Value off_diagonal(const Entries<Real>& entries, std::size_t i, const Element* x) {
   const Span row = entries.rows[i];
   std::array<Value, row_unit> sums{};
   for (std::uint32_t k = row.begin; k < row.end; k += row_unit) {
     for (std::uint32_t m = 0; m < row_unit; ++m)
-      sums[m] += static_cast<Value>(entries.weights[k + m]) * x[entries.columns[k + m]];
+      sums[m] += static_cast<Value>(entries.weights[k + m]) * static_cast<Value>(x[entries.columns[k + m]]);
   }
   static_assert(row_unit == 2);
   return sums[0] + sums[1];
 }
 
-/// Element i of A x, zero where there is no row.
-template <class Real, class Value>
-[[gnu::always_inline]] inline Value product(const PressureMatrix<Real>& A, std::size_t i, const Value* x) {
+/// Element i of A x, summed in double precision; zero where there is no row.
+template <class Real, class Element>
+[[gnu::always_inline]] inline double product(const PressureMatrix<Real>& A, std::size_t i, const Element* x) {
   if (A.has_row[i] == 0) return 0;
-  Value sum = off_diagonal(A.near, i, x);
-  if (A.has_far()) sum += off_diagonal(A.far, i, x);
-  return static_cast<Value>(A.diagonal[i]) * x[i] - sum;
+  double sum = off_diagonal<double>(A.near, i, x);
+  if (A.has_far()) sum += off_diagonal<double>(A.far, i, x);
+  return static_cast<double>(A.diagonal[i]) * static_cast<double>(x[i]) - sum;
 }
 
 }  // namespace sluice::mps

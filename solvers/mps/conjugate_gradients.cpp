@@ -55,9 +55,9 @@ Convergence ConjugateGradients<Real>::solve(const PressureMatrix<Real>& A, std::
   for (int k = 0; k < most_iterations && norm_r > tolerance * norm_b; ++k) {
     const Real* const z = precondition(residual_).data();
     const double rz = sum(A, [&](std::size_t i) { return r[i] * static_cast<double>(z[i]); });
-    const double beta = k == 0 ? 0 : rz / rz_before;
+    const auto beta = static_cast<Real>(k == 0 ? 0 : rz / rz_before);
     sum(A, [&](std::size_t i) {
-      p[i] = static_cast<Real>(static_cast<double>(z[i]) + (k == 0 ? 0.0 : beta * static_cast<double>(p[i])));
+      p[i] = z[i] + (k == 0 ? Real{} : beta * p[i]);
       return 0.0;
     });
     const double pq = sum(A, [&](std::size_t i) {

@@ -117,6 +117,27 @@ TEST(ReportTables, WhatRunsScatterByDecidesNothing) {
   EXPECT_NE(cell(table, "α ≤ 0.001 gives better impulses", "runs").text.find("40.0 % at 0.1"), std::string::npos);
 }
 
+/// The errors of kleefsman-alpha and kleefsman-standard with extrapolated walls.
+TEST(ReportTables, ErrorsOnBothSidesOfAnAlphaThatOverlapTellNoDifference) {
+  const std::string statement = "α ≤ 0.001 gives better impulses";
+  std::vector<fs::path> runs;
+  const auto write = [&](double alpha, double scale) {
+    runs.push_back(fresh("statement_overlap_" + std::to_string(runs.size())));
+    synthetic::write_run(runs.back(), {.alpha = alpha, .scale = scale});
+  };
+  write(0.0001, 1.0682);
+  write(0.001, 1.0660);
+  write(0.01, 1.0684);
+  write(0.1, 1.0557);
+  EXPECT_EQ(cell(conclusions_table(analyse(runs)), statement, "verdict").text, "no difference told")
+      << "the best is large by a tenth and more, the worst is large too";
+  runs.erase(runs.begin() + 2);
+  EXPECT_EQ(cell(conclusions_table(analyse(runs)), statement, "verdict").text, "does not agree");
+  write(0.01, 1.0630);
+  EXPECT_EQ(cell(conclusions_table(analyse(runs)), statement, "verdict").text, "no difference told")
+      << "all large ones are better, one of them by less than a tenth";
+}
+
 /// The paper's campaign computes with parameters of its own throughout.
 TEST(ReportTables, RunsThatAllHaveOtherParametersStandForTheirMethod) {
   const fs::path wcsph = fresh("statement_as_printed");

@@ -150,8 +150,9 @@ Table conclusions_table(const ReportData& data) {
       "end, if any do). Costs: processor time per simulated second; they agree within a tenth of what the paper prints "
       "for that particle distance or, where it prints none, for its finest. WCSPH takes many more steps where it takes "
       "three quarters of what is printed, or more. Of errors and oscillations less than a tenth tells no difference, "
-      "since runs that differ in rounding alone scatter by some per cent, nor do errors on both sides of an alpha that "
-      "overlap.");
+      "since runs that differ in rounding alone scatter by some per cent. Of two sides of an alpha one is better where "
+      "its largest error is by a tenth less than the other's smallest; where they overlap or lie nearer no difference "
+      "is told.");
   conclusions::note_judged_parameters(table, data);
   if (std::any_of(data.runs.begin(), data.runs.end(), [](const AnalysedRun& run) { return !run.record.own; }))
     table.notes.push_back(

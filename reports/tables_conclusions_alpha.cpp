@@ -32,12 +32,13 @@ struct AlphaSides {
     words += fmt::format("{}{} at {}", words.empty() ? "" : ", ", percent(*error), shortest(alpha));
   }
   bool both() const { return !small.empty() && !large.empty(); }
-  /// Means would hang on which alphas are there: every error at a small one has to be the smaller.
+  /// Means would hang on which alphas are there: every error at a small one has to be the smaller. A claim of one side
+  /// against the other is refuted by a whole side too: one good run among the large alphas is not enough.
   Verdict smaller_below() const {
     const auto [least_small, most_small] = std::minmax_element(small.begin(), small.end());
-    const double least_large = *std::min_element(large.begin(), large.end());
-    if (smaller(*most_small, least_large) == Verdict::agrees) return Verdict::agrees;
-    return smaller(least_large, *least_small) == Verdict::agrees ? Verdict::does_not_agree : Verdict::not_told;
+    const auto [least_large, most_large] = std::minmax_element(large.begin(), large.end());
+    if (smaller(*most_small, *least_large) == Verdict::agrees) return Verdict::agrees;
+    return smaller(*most_large, *least_small) == Verdict::agrees ? Verdict::does_not_agree : Verdict::not_told;
   }
 };
 

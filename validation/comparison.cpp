@@ -31,7 +31,8 @@ void add_measured(Comparison& result, const MeasuredSeries& measured, const Comp
   set_peak(smoothed_peak(measured, window, options.smoothing_s), result.smoothed_peak.measured,
            result.smoothed_peak_time_s.measured);
   result.impulse.measured = impulse(measured, window);
-  if (covers(measured, window)) {
+  // A mean over one bin or less takes nothing away, so that what is left would be no noise.
+  if (covers(measured, window) && measured.bin_s < options.noise_running_mean_s - 1e-9) {
     const Series means{measured.name, measured.unit, measured.t_s, measured.mean};
     result.noise.measured = noise(means, window, options.noise_running_mean_s);
   }

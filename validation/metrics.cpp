@@ -140,7 +140,12 @@ std::optional<Peak> smoothed_peak(const MeasuredSeries& series, Window window, d
   if (!series.smoothed_maximum.empty() && std::abs(series.smoothing_s - smoothing_s) < 1e-6) {
     return largest_sample({series.t_s, series.smoothed_maximum}, window);
   }
-  return largest_sample(running_mean(series, smoothing_s), window);
+  if (series.bin_s > smoothing_s + 1e-9) return std::nullopt;
+  const double half = 0.5 * smoothing_s - 1e-9;
+  const Window within{window.begin_s + half, window.end_s - half};
+  const Series mean = running_mean(series, smoothing_s);
+  if (within.end_s <= within.begin_s || mean.t_s.empty()) return std::nullopt;
+  return largest_sample(mean, within);
 }
 
 std::optional<double> arrival_time(const Curve& curve, Window window, double threshold) {

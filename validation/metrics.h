@@ -76,8 +76,9 @@ Series running_mean(const MeasuredSeries& series, double window_s);
 
 /// Peak of the running mean within the window. Missing when the series does not cover the window.
 std::optional<Peak> smoothed_peak(const Series& series, Window window, double smoothing_s);
-/// From the digest's own smoothed maxima where it has them for this width, else from its bins (a sharp peak then comes
-/// out a few per cent too low).
+/// From the digest's own smoothed maxima where it has them for this width, else from those of its bins that lie in the
+/// window (a sharp peak then comes out a few per cent too low). Missing where the bins are wider than the mean: a mean
+/// over 50 ms is none over 10.
 std::optional<Peak> smoothed_peak(const MeasuredSeries& series, Window window, double smoothing_s);
 
 /// First time within the window at which the curve rises to the threshold, interpolated. Missing when it never does,
@@ -165,7 +166,7 @@ struct Comparison {
   std::optional<double> lag_s;            ///< positive: the simulation is late
   std::optional<double> correlation;      ///< at that lag
   std::optional<double> share_inside_band;
-  Pair noise;  ///< measured: of the bin means, so only of what is slower than a bin
+  Pair noise;  ///< measured: of the bin means, so only of what is slower than a bin; missing where no mean has two
   std::vector<std::string> remarks;
 };
 

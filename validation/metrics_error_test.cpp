@@ -203,6 +203,18 @@ TEST(Compare, OfARunThatStoppedEarlySaysWhatIsMissing) {
   EXPECT_EQ(c.remarks[0], "the simulated series covers 2.00 s of a window that ends at 6.00 s");
 }
 
+TEST(Compare, OfWideBinsHasNeitherMeanPeakNorNoise) {
+  const Series simulated = sampled_evenly(surges, whole, 0.001);
+  const Comparison c = compare(simulated, binned(surges, 0.05, 120), whole);
+  EXPECT_TRUE(c.peak.measured);
+  EXPECT_FALSE(c.smoothed_peak.measured);
+  EXPECT_FALSE(c.smoothed_peak_time_s.measured);
+  EXPECT_FALSE(c.noise.measured);
+  EXPECT_TRUE(c.smoothed_peak.simulated);
+  EXPECT_FALSE(compare(simulated, binned(surges, 0.02, 300), whole).noise.measured) << "a mean over one bin";
+  EXPECT_TRUE(compare(simulated, binned(surges, 0.01, 600), whole).noise.measured);
+}
+
 TEST(Compare, OfASensorThatIsWetFromTheStartHasNoArrival) {
   const auto falling = [](double t) { return 0.55 * std::exp(-t); };
   const Comparison c = compare(sampled_evenly(falling, whole, 0.001), binned(falling, 0.005, 1200), whole);

@@ -163,6 +163,21 @@ TEST(SmoothedPeak, OfBinsUsesTheDigestsOwnWhereTheWidthAgrees) {
   EXPECT_NEAR(from_bins, 1000, 5);
 }
 
+TEST(SmoothedPeak, OfBinsWiderThanTheMeanIsMissing) {
+  MeasuredSeries series = binned(bell, 0.05, 120);
+  EXPECT_FALSE(smoothed_peak(series, whole, 0.01));
+  EXPECT_TRUE(smoothed_peak(series, whole, 0.05));
+  series.smoothing_s = 0.01;
+  series.smoothed_maximum.assign(120, 7);
+  EXPECT_EQ(smoothed_peak(series, whole, 0.01)->value, 7) << "of the unbinned samples";
+}
+
+TEST(SmoothedPeak, OfBinsTakesNothingFromOutsideTheWindow) {
+  const MeasuredSeries falling = binned([](double t) { return 6 - t; }, 0.005, 1200);
+  EXPECT_NEAR(smoothed_peak(falling, {1, 5}, 0.01)->value, 4.995, 1e-9) << "the mean of 1.00 to 1.01 s";
+  EXPECT_NEAR(smoothed_peak(falling, {1, 5}, 0.01)->time_s, 1.005, 1e-9);
+}
+
 TEST(Arrival, IsInterpolatedOnARamp) {
   const auto ramp = [](double t) { return std::max(0.0, t - 1.0) * 100; };
   EXPECT_NEAR(*arrival_time(sampled_unevenly(ramp, whole, 0.01), whole, 25), 1.25, 1e-9);

@@ -245,10 +245,22 @@ bool is_whole(const ReportData& data, const RunRecord& run) {
   return run.own && run.status() == "finished" && run.number("t_end_s").value_or(0) >= data.window.end_s * (1 - 1e-9);
 }
 
-bool ended_early(const ReportData& data, const AnalysedRun& run) {
-  if (run.record.own) return !run.record.status().empty() && run.record.status() != "finished";
+namespace {
+
+bool reaches_windows_end(const ReportData& data, const AnalysedRun& run) {
   const std::vector<double>& t = run.record.probes.times_s();
-  return !reaches_end({t, t}, data.window);
+  return reaches_end({t, t}, data.window);
+}
+
+}  // namespace
+
+bool ended_early(const ReportData& data, const AnalysedRun& run) {
+  const std::string status = run.record.status();
+  if (run.record.own && !status.empty() && status != "finished") return true;
+  if (reaches_windows_end(data, run)) return false;
+  // A set of short runs alone is told about among themselves.
+  return !run.record.own || std::any_of(data.runs.begin(), data.runs.end(),
+                                        [&](const AnalysedRun& other) { return reaches_windows_end(data, other); });
 }
 
 std::string left_out_note(const ReportData& data) {

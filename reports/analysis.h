@@ -86,8 +86,9 @@ std::string parameters_text(const std::map<std::string, double>& parameters);
 /// Whether a run of this program has ended, at the end of the case's window or later.
 bool is_whole(const ReportData& data, const RunRecord& run);
 
-/// Whether a run was stopped before its end, or another code's series ends before the window does. What it has is true
-/// of the time that it covers, and enters nothing that ranks, averages or fits runs.
+/// Whether a run was stopped before its end, or its series ends before the window does (of finished runs of this
+/// program only where another run does reach the window's end). What it has is true of the time that it covers, and
+/// enters nothing that ranks, averages or fits runs.
 bool ended_early(const ReportData& data, const AnalysedRun& run);
 /// "Left out, since they ended early: R4, R8."; empty where none did.
 std::string left_out_note(const ReportData& data);

@@ -99,5 +99,23 @@ TEST_F(WholeAndInterrupted, MeansAndRatiosAreOfWholeRuns) {
   EXPECT_EQ(cell(kernel_support_table(data), "R1", "P1_percent").value, 100);
 }
 
+/// A trial to 2 s is finished, and still knows nothing of what comes after.
+TEST(EarlyRuns, AFinishedRunThatIsShorterThanTheWindowStandsBesideNoWholeOne) {
+  const fs::path whole = fresh("beside_trial");
+  const fs::path trial = fresh("trial");
+  synthetic::write_run(whole, {});
+  synthetic::write_run(trial, {.l0_m = 0.015, .t_end_s = 2.0});
+  test_files::put_in_manifest(trial, {{"t_end_s", 2.0}});
+  const ReportData data = analyse({whole, trial});
+  EXPECT_FALSE(ended_early(data, data.runs[0]));
+  EXPECT_TRUE(ended_early(data, data.runs[1]));
+  EXPECT_EQ(left_out_note(data), "Left out, since they ended early: R2.");
+  EXPECT_EQ(cell(conservation_table(data), "R2", "energy_end_percent").text, "missing");
+  EXPECT_EQ(cell(kernel_support_table(data), "R2", "P1_percent").text, "missing");
+  const ReportData alone = analyse({trial});
+  EXPECT_FALSE(ended_early(alone, alone.runs[0]));
+  EXPECT_NE(cell(conservation_table(alone), "R1", "energy_end_percent").text, "missing");
+}
+
 }  // namespace
 }  // namespace sluice

@@ -14,6 +14,7 @@
 #include "reports/text.h"
 #include "validation/curve.h"
 #include "validation/file_hash.h"
+#include "validation/legs.h"
 #include "validation/printable.h"
 #include "validation/solver_factory.h"
 
@@ -275,6 +276,12 @@ std::optional<double> processor_time_s(const AnalysedRun& run) {
   const auto wall_s = run.record.number("wall_time_s");
   if (!wall_s || *wall_s <= 0) return std::nullopt;
   return *wall_s * run.record.number("threads").value_or(1);
+}
+
+std::optional<std::string> machine_of(const AnalysedRun& run) {
+  if (!difference_of_legs(run.record.manifest, {"machine"}).empty()) return std::nullopt;
+  const auto machine = run.record.text("machine");
+  return machine && !machine->empty() ? machine : std::nullopt;
 }
 
 std::optional<double> mean_impulse_error(const ReportData& data, const AnalysedRun& run, const std::string& model) {

@@ -100,6 +100,9 @@ std::optional<double> mean_impulse_error(const ReportData& data, const AnalysedR
 /// depends less than wall time on what else a machine did.
 std::optional<double> processor_time_s(const AnalysedRun& run);
 
+/// The machine that computed the whole of a run; missing where it is not stated or where parts are of several.
+std::optional<std::string> machine_of(const AnalysedRun& run);
+
 /// Groups of runs for figures: by solver and walls, at most `limit` in each.
 struct RunGroup {
   std::string title;

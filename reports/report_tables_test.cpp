@@ -70,25 +70,6 @@ TEST(ReportTables, SaysWhatTheKernelProbeSaw) {
   EXPECT_EQ(cell(kernel_support_table(analyse({external})), "R1", "P1_percent").text, "missing");
 }
 
-TEST(ReportTables, CostsOfTheTwoMethodsStandSideBySideAtEqualParticleDistance) {
-  const fs::path wcsph = fresh("cost_wcsph");
-  const fs::path mps = fresh("cost_mps");
-  synthetic::write_run(wcsph, {});
-  EXPECT_TRUE(cost_ratio_table(analyse({wcsph})).rows.empty()) << "one method alone has no ratio";
-  MadeRun run;
-  run.solver = "mps";
-  run.walls = "dummies";
-  synthetic::write_run(mps, run);
-  test_files::put_in_manifest(mps, {{"wall_time_s", 1800.0}});
-  const Table table = cost_ratio_table(analyse({mps, wcsph}));
-  ASSERT_EQ(table.rows.size(), 2U);
-  EXPECT_NEAR(*table.rows[0].cells.back().value, 2.0, 1e-9);
-  EXPECT_NEAR(*table.rows[1].cells.back().value, 223200.0 / 126000.0, 1e-9) << "the paper's";
-  run.l0_m = 0.03;
-  synthetic::write_run(mps, run);
-  EXPECT_TRUE(cost_ratio_table(analyse({mps, wcsph})).rows.empty()) << "not at different ones";
-}
-
 TEST(ReportTables, LabelsSayWhatARunHasSetOtherwiseThanTheCase) {
   const fs::path dir = fresh("changed");
   synthetic::write_run(dir, {});
@@ -146,15 +127,6 @@ TEST(ReportTables, EnergyAndCompressionOfTheFluid) {
   EXPECT_NEAR(*cell(table, "R1", "density_ratio_max_1").value, 1.3, 1e-9);
   EXPECT_NEAR(*cell(table, "R1", "density_ratio_max_later_1").value, 1.01, 1e-9);
   EXPECT_EQ(cell(table, "R2", "energy_start_J").text, "missing");
-}
-
-TEST(ReportTables, ProcessorTimeIsTheCostAndWallTimeStandsIn) {
-  AnalysedRun run;
-  EXPECT_FALSE(processor_time_s(run));
-  run.record.manifest = {{"wall_time_s", 10.0}, {"threads", 2}};
-  EXPECT_EQ(processor_time_s(run), 20.0);
-  run.record.manifest["cpu_time_s"] = 15.0;
-  EXPECT_EQ(processor_time_s(run), 15.0);
 }
 
 TEST(ReportTables, PairsOfRunsThatDifferInTheirWallsAlone) {

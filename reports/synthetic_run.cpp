@@ -71,6 +71,7 @@ json manifest_of(const MadeRun& run, const Case& c) {
           {"compiler", "g++ 12.2.0"},
           {"flags", "-O3"},
           {"cpu", "a processor"},
+          {"machine", "a machine"},
           {"parameters", {{"kernel_radius_over_distance", 3.0}, {"delta", 0.1}}},
           {"sensors", sensors},
           {"case_hash", c.hash},

@@ -61,7 +61,7 @@ PrintedRatios printed_ratios(const ReportData& data, int decimals, Ratio ratio) 
 }
 
 /// Runs of one machine: the cheapest of each method there, where both ran; of several machines the one with the
-/// cheapest run of MPS. Nothing where no machine has both.
+/// cheapest run of MPS. Nothing where no machine is known to have both.
 struct CostPair {
   const AnalysedRun* mps = nullptr;
   const AnalysedRun* wcsph = nullptr;
@@ -77,10 +77,11 @@ CostPair cheapest_of_one_machine(const BothMethods& both) {
   double least_cost = HUGE_VAL;
   for (const AnalysedRun* mps : both.mps) {
     const auto mps_cost = cost_of(*mps);
-    if (!mps_cost || *mps_cost >= least_cost) continue;
+    const auto machine = machine_of(*mps);
+    if (!machine || !mps_cost || *mps_cost >= least_cost) continue;
     std::vector<const AnalysedRun*> beside;
     for (const AnalysedRun* run : both.wcsph)
-      if (run->record.text("machine") == mps->record.text("machine")) beside.push_back(run);
+      if (machine_of(*run) == machine) beside.push_back(run);
     const auto [wcsph_cost, wcsph] = least(beside, cost_of);
     if (!wcsph_cost) continue;
     least_cost = *mps_cost;
@@ -147,12 +148,12 @@ Table conclusions_table(const ReportData& data) {
         "readings.");
   table.notes.push_back(
       "Where both methods are compared, at the finest particle distance that has both (of runs that reach the window's "
-      "end, if any do). Costs: processor time per simulated second; they agree within a tenth of what the paper prints "
-      "for that particle distance or, where it prints none, for its finest. WCSPH takes many more steps where it takes "
-      "three quarters of what is printed, or more. Of errors and oscillations less than a tenth tells no difference, "
-      "since runs that differ in rounding alone scatter by some per cent. Of two sides of an alpha one is better where "
-      "its largest error is by a tenth less than the other's smallest; where they overlap or lie nearer no difference "
-      "is told.");
+      "end, if any do). Costs: processor time per simulated second, of runs that one machine computed from beginning "
+      "to end; they agree within a tenth of what the paper prints for that particle distance or, where it prints none, "
+      "for its finest. WCSPH takes many more steps where it takes three quarters of what is printed, or more. Of "
+      "errors and oscillations less than a tenth tells no difference, since runs that differ in rounding alone scatter "
+      "by some per cent. Of two sides of an alpha one is better where its largest error is by a tenth less than the "
+      "other's smallest; where they overlap or lie nearer no difference is told.");
   conclusions::note_judged_parameters(table, data);
   if (std::any_of(data.runs.begin(), data.runs.end(), [](const AnalysedRun& run) { return !run.record.own; }))
     table.notes.push_back(

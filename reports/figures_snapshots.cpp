@@ -182,9 +182,26 @@ bool anything_moves(const Case& the_case) {
                      [](const Obstacle& obstacle) { return obstacle.motion.moves(); });
 }
 
+bool is_alike(double value, double other) {
+  return std::abs(value - other) < 1e-9 * std::abs(other);
+}
+
+/// Of which figure of the paper these are the counterpart, and what the paper's panels have otherwise than the run.
+std::string papers_snapshots(const Published& published, const RunRecord& run) {
+  if (published.snapshots_figure == 0) return "";
+  std::string apart;
+  const auto& alpha = published.snapshots_alpha;
+  if (run.solver == "wcsph" && alpha && !(run.alpha() && is_alike(*run.alpha(), *alpha)))
+    apart = fmt::format(" WCSPH at α = {}", shortest(*alpha));
+  if (const auto& l0_m = published.snapshots_l0_m; l0_m && !is_alike(run.l0_m, *l0_m))
+    apart += fmt::format("{} l0 = {:g} mm", apart.empty() ? "" : " and", 1000 * *l0_m);
+  return apart.empty() ? fmt::format(" (the paper's figure {})", published.snapshots_figure)
+                       : fmt::format(" (after the paper's figure {}, which has{})", published.snapshots_figure, apart);
+}
+
 std::string snapshot_caption(const Case& the_case, const AnalysedRun& run, const std::string& times) {
   const int number = the_case.published.snapshots_figure;
-  const std::string figure = number > 0 ? fmt::format(" (the paper's figure {})", number) : "";
+  const std::string figure = papers_snapshots(the_case.published, run.record);
   const Scale& scale = scale_of(the_case);
   return fmt::format(
       "{}: particles at t = {} s{}, coloured by {}; values above {:g} take the brightest colour. Only what nothing "

@@ -83,10 +83,19 @@ TEST(ForceReport, OfTheUnmeasuredCaseSaysSoAndNumbersThePapersTableAndFigures) {
   made.l0_m = 0.02;
   synthetic::write_force_run(run, made);
   synthetic::write_snapshots(run, {0.3, 0.6}, 0.04, "aureli");
-  write_report({run}, out);
+  const fs::path as_in_paper = fresh("force_aureli_as_in_paper");
+  made.alpha = 0.001;
+  made.l0_m = 0.0025;
+  synthetic::write_force_run(as_in_paper, made);
+  synthetic::write_snapshots(as_in_paper, {0.3}, 0.04, "aureli");
+  write_report({run, as_in_paper}, out);
   const std::string page = read(out / "report.md");
   EXPECT_NE(page.find("(the paper's figure 12)"), std::string::npos);
-  EXPECT_NE(page.find("particles at t = 0.30, 0.60 s (the paper's figure 11)"), std::string::npos);
+  EXPECT_NE(
+      page.find("particles at t = 0.30, 0.60 s (after the paper's figure 11, which has WCSPH at α = 0.001 and l0 = "
+                "2.5 mm)"),
+      std::string::npos);
+  EXPECT_NE(page.find("particles at t = 0.30 s (the paper's figure 11)"), std::string::npos);
   EXPECT_NE(page.find("The experiment's photographs are not part of the comparison."), std::string::npos);
   EXPECT_TRUE(fs::exists(out / "figures/snapshots_R1.png"));
   EXPECT_NE(page.find("Measured: missing."), std::string::npos);

@@ -112,6 +112,11 @@ TEST_F(WholeReport, WritesEveryFormat) {
   EXPECT_NE(markdown.find("FreSCo and ConFlow"), std::string::npos) << "what is not available is said";
 }
 
+TEST_F(WholeReport, SnapshotsSayWhatThePapersFigureHasOtherwise) {
+  EXPECT_NE(read(out / "report.md").find("after the paper's figure 3, which has WCSPH at α = 0.0001 and l0 = 7.5 mm"),
+            std::string::npos);
+}
+
 TEST_F(WholeReport, NamesNoPathOfTheMachine) {
   const std::string temporary = fs::path(testing::TempDir()).lexically_normal().parent_path().string();
   for (const auto& entry : fs::recursive_directory_iterator(out)) {

@@ -166,6 +166,8 @@ struct Published {
   int runs_table = 0;
   std::vector<PublishedFigure> figures;
   int snapshots_figure = 0;
+  std::optional<double> snapshots_alpha{};    ///< of the WCSPH in that figure
+  std::optional<double> snapshots_l0_m{};     ///< of all that it shows   [m]
   std::string snapshots_colour = "pressure";  ///< of particles in reports: "pressure" or "velocity", dimensionless
   int geometry_figure = 0;
   std::string cpu;  ///< the machine of the printed CPU times

@@ -155,6 +155,8 @@ void parse_published(TomlReader reader, Case& c) {
   if (reader.has("impulses_table")) p.impulses_table = reader.integer("impulses_table");
   if (reader.has("runs_table")) p.runs_table = reader.integer("runs_table");
   if (reader.has("snapshots_figure")) p.snapshots_figure = reader.integer("snapshots_figure");
+  p.snapshots_alpha = reader.optional_number("snapshots_alpha");
+  p.snapshots_l0_m = reader.optional_number("snapshots_l0_m");
   if (reader.has("snapshots_colour")) p.snapshots_colour = one_of(reader, "snapshots_colour", {"pressure", "velocity"});
   if (reader.has("geometry_figure")) p.geometry_figure = reader.integer("geometry_figure");
   for (TomlReader& impulse : reader.tables("impulses", true)) p.impulses.push_back(parse_published_impulse(impulse, c));

@@ -52,13 +52,20 @@ constexpr const char* smoothed_words = "runs after a 10 ms running mean, ";
 void share_range(std::vector<PlotPanel>& panels, const Cut& cut) {
   double low = 1e300;
   double high = -1e300;
-  for (const PlotPanel& panel : panels)
-    for (const PlotCurve& curve : panel.curves)
-      for (double y : curve.y) {
-        if (!std::isfinite(y)) continue;
-        low = std::min(low, y);
-        high = std::max(high, y);
-      }
+  const auto show = [&](const std::vector<double>& values) {
+    for (double y : values) {
+      if (!std::isfinite(y)) continue;
+      low = std::min(low, y);
+      high = std::max(high, y);
+    }
+  };
+  for (const PlotPanel& panel : panels) {
+    for (const PlotCurve& curve : panel.curves) show(curve.y);
+    for (const PlotBand& band : panel.bands) {
+      show(band.lower);
+      show(band.upper);
+    }
+  }
   if (!(low < high)) return;
   const double margin = 0.04 * (high - low);
   for (PlotPanel& panel : panels) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <fstream>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include "reports/synthetic_run.h"
 #include "reports/test_files.h"
+#include "validation/measurements.h"
 
 namespace sluice {
 namespace {
@@ -115,6 +117,15 @@ TEST_F(WholeReport, WritesEveryFormat) {
 TEST_F(WholeReport, SnapshotsSayWhatThePapersFigureHasOtherwise) {
   EXPECT_NE(read(out / "report.md").find("after the paper's figure 3, which has WCSPH at α = 0.0001 and l0 = 7.5 mm"),
             std::string::npos);
+}
+
+TEST_F(WholeReport, LongViewsShowAllOfTheMeasuredBand) {
+  const Measurements measured = Measurements::load(load_case("kleefsman"));
+  const std::vector<double>& maxima = measured.find("P1")->maximum;
+  const std::string script = read(out / "figures/pressure_P1.gp");
+  const std::size_t at = script.find(':', script.find("set yrange ["));
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_GT(1000 * std::stod(script.substr(at + 1)), *std::max_element(maxima.begin(), maxima.end()));
 }
 
 TEST_F(WholeReport, NamesNoPathOfTheMachine) {

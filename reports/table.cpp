@@ -142,12 +142,17 @@ constexpr const char* latex_head =
 )";
 constexpr const char* latex_foot = "\\ifdefined\\sluicealone\\expandafter\\sluicealone\\fi\n";
 
+/// Begins a row: a first cell that begins with a bracket or a star would be taken for an argument of what stands
+/// before.
+constexpr const char* latex_row_begin = "{}";
+
 /// Tables of more rows than a page holds are set small and break across pages.
 constexpr std::size_t rows_on_a_page = 36;
 
 std::string latex_heading(const Table& table) {
   std::string out;
-  for (const TableColumn& column : table.columns) out += (out.empty() ? "" : " & ") + escape_latex(column.heading);
+  for (const TableColumn& column : table.columns)
+    out += (out.empty() ? latex_row_begin : " & ") + escape_latex(column.heading);
   return out + " \\\\\n\\midrule\n";
 }
 
@@ -159,7 +164,8 @@ std::string latex_rows(const Table& table) {
                          latex_cell(row.cells.front()));
       continue;
     }
-    for (std::size_t c = 0; c < row.cells.size(); ++c) out.append(c > 0 ? " & " : "").append(latex_cell(row.cells[c]));
+    for (std::size_t c = 0; c < row.cells.size(); ++c)
+      out.append(c > 0 ? " & " : latex_row_begin).append(latex_cell(row.cells[c]));
     out += " \\\\\n";
   }
   return out;

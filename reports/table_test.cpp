@@ -40,6 +40,18 @@ TEST(Table, LatexEscapesAndUsesBooktabs) {
     EXPECT_NE(latex.find(part), std::string::npos) << part << "\n" << latex;
 }
 
+/// `\\` and `\midrule` take what stands in brackets after them for a length.
+TEST(Table, LatexRowsMayBeginWithABracketOrAStar) {
+  Table table;
+  table.name = "bracket";
+  table.columns = {{"[unit]", "unit", false}, {"n", "n"}};
+  table.add({word("[m]"), number(1, 0)});
+  table.add({word("*"), number(2, 0)});
+  const std::string latex = to_latex(table);
+  for (const char* part : {"\n{}[unit] & n", "\n{}[m] & 1", "\n{}* & 2"})
+    EXPECT_NE(latex.find(part), std::string::npos) << part << "\n" << latex;
+}
+
 TEST(Table, LatexBreaksLongTablesAcrossPages) {
   Table table = sample();
   EXPECT_EQ(to_latex(table).find("\\begin{longtable}"), std::string::npos);

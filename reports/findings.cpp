@@ -283,7 +283,8 @@ std::vector<KeyNumber> key_numbers(const ReportData& data) {
     keys.push_back({"Impulses of " + list(data.headline_sensors()), percent(runs.front().value),
                     "mean unsigned deviation, best run: " + runs.front().run->label});
   if (const auto span = published_span(data, "wcsph"))
-    keys.push_back({"The same in the paper (WCSPH)",
+    keys.push_back({runs.empty() ? "Impulses of " + list(data.headline_sensors()) + " in the paper (WCSPH)"
+                                 : "The same in the paper (WCSPH)",
                     span->first == span->second ? percent(span->first)
                                                 : fixed(100 * span->first, 1) + " – " + percent(span->second),
                     "over its values of α"});

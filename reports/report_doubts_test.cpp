@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "reports/bias.h"
+#include "reports/sections.h"
 #include "reports/studies.h"
 #include "reports/synthetic_run.h"
 #include "reports/tables.h"
@@ -183,6 +184,29 @@ TEST(Doubts, AnAblationIsAMethodOfItsOwnInBiasAndScatter) {
   ASSERT_FALSE(quantities.empty());
   ASSERT_EQ(quantities[0].methods.size(), 2u);
   EXPECT_NE((quantities[0].methods[0].name + quantities[0].methods[1].name).find("delta = 0"), std::string::npos);
+}
+
+TEST(Doubts, PairsThatAreNotPositiveDoNotCountAndAreTold) {
+  std::vector<fs::path> runs;
+  for (const double scale : {1.0, 1.1, -1.0, -1.1}) {
+    runs.push_back(fresh("doubts_pairs_" + std::to_string(runs.size())));
+    synthetic::write_force_run(runs.back(), {.alpha = 0.01 * static_cast<double>(runs.size()), .scale = scale});
+  }
+  const Table table = bias_table(analyse(runs));
+  EXPECT_EQ(*test_files::cell(table, "WCSPH", "pairs").value, 2);
+  EXPECT_EQ(test_files::cell(table, "WCSPH", "bias").text, "needs three pairs");
+  EXPECT_TRUE(any_has(table.notes, "walls: 2 pairs left out, a value in them is not positive"));
+}
+
+TEST(Doubts, WithoutOwnImpulsesThePapersAreNamedByThemselves) {
+  const fs::path run = fresh("doubts_no_impulses");
+  synthetic::write_external_run(run, 1);
+  const std::vector<KeyNumber> keys = key_numbers(analyse({run}));
+  const auto has = [&](const std::string& label) {
+    return std::any_of(keys.begin(), keys.end(), [&](const KeyNumber& key) { return key.label == label; });
+  };
+  EXPECT_TRUE(has("Impulses of P1, P2 and P3 in the paper (WCSPH)"));
+  EXPECT_FALSE(has("The same in the paper (WCSPH)"));
 }
 
 }  // namespace

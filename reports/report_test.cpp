@@ -128,6 +128,11 @@ TEST_F(WholeReport, LongViewsShowAllOfTheMeasuredBand) {
   EXPECT_GT(1000 * std::stod(script.substr(at + 1)), *std::max_element(maxima.begin(), maxima.end()));
 }
 
+TEST_F(WholeReport, SaysWhyAValueMayBeMissing) {
+  for (const char* reason : {"nobody measured it", "record it", "far enough", "threshold", "limit of the search"})
+    EXPECT_NE(read(out / "index.html").find(reason), std::string::npos) << reason;
+}
+
 TEST_F(WholeReport, NamesNoPathOfTheMachine) {
   const std::string temporary = fs::path(testing::TempDir()).lexically_normal().parent_path().string();
   for (const auto& entry : fs::recursive_directory_iterator(out)) {

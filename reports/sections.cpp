@@ -18,7 +18,8 @@ ReportSection summary_section(const ReportData& data) {
   section.blocks.push_back(hint(
       "Every sentence above is computed from the runs named below. Unless said otherwise a run is judged by its "
       "primary readings: the sensor models that the case file names for its solver and its walls. “Missing” means that "
-      "a run did not record a value, or did not get far enough to have one."));
+      "there is no value: nobody measured it or the measured series cannot tell it, a run did not record it or did not "
+      "get far enough to have it, a threshold was never reached, or the best lag lies at the limit of the search."));
   if (!data.the_case.assumptions.empty()) {
     section.blocks.push_back(Paragraph{"**Assumptions of the case**, where its sources are silent:"});
     section.blocks.push_back(BulletList{data.the_case.assumptions});

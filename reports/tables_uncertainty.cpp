@@ -22,6 +22,30 @@ TableCell interval(const std::optional<Interval>& range, int decimals) {
   return word(fmt::format("{} to {}", fixed(range->lower, decimals), fixed(range->upper, decimals)));
 }
 
+/// Pairs whose ratio has a logarithm: both values positive.
+std::size_t usable_pairs(const std::vector<PredictedAndMeasured>& pairs) {
+  return static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [](const PredictedAndMeasured& pair) {
+    return pair.predicted > 0 && pair.measured > 0;
+  }));
+}
+
+std::vector<TableCell> bias_row(const BiasMethod& method) {
+  const auto found = bias_and_scatter(method.pairs);
+  const TableCell pairs = number(static_cast<double>(usable_pairs(method.pairs)), 0);
+  if (!found)
+    return {word(method.name), pairs,           not_applicable("needs three pairs"), not_applicable(),
+            not_applicable(),  not_applicable()};
+  std::optional<Interval> scatter = found->scatter_interval;
+  if (scatter) *scatter = {100 * scatter->lower, 100 * scatter->upper};
+  const bool told = found->tells_bias();
+  return {word(method.name),
+          pairs,
+          told ? number(found->bias, 2) : not_applicable("scatters too far"),
+          told ? interval(found->bias_interval, 2) : not_applicable(),
+          number(100 * found->scatter, 0),
+          interval(scatter, 0)};
+}
+
 /// The heading of a series of which nothing can be said: without a measurement a table would be headings alone.
 void drop_bare_heading(Table& table) {
   if (!table.rows.empty() && table.rows.back().is_group()) table.rows.pop_back();
@@ -42,22 +66,11 @@ Table bias_table(const ReportData& data) {
   for (const BiasQuantity& quantity : bias_quantities(data)) {
     table.add_group(quantity.name);
     for (const BiasMethod& method : quantity.methods) {
-      const auto found = bias_and_scatter(method.pairs);
-      if (!found) {
-        table.add({word(method.name), number(static_cast<double>(method.pairs.size()), 0),
-                   not_applicable("needs three pairs"), not_applicable(), not_applicable(), not_applicable()});
-        continue;
-      }
-      std::optional<Interval> scatter = found->scatter_interval;
-      if (scatter) *scatter = {100 * scatter->lower, 100 * scatter->upper};
-      const bool told = found->tells_bias();
-      table.add({word(method.name), number(static_cast<double>(found->pairs), 0),
-                 told ? number(found->bias, 2) : not_applicable("scatters too far"),
-                 told ? interval(found->bias_interval, 2) : not_applicable(), number(100 * found->scatter, 0),
-                 interval(scatter, 0)});
-      if (found->left_out > 0)
-        table.notes.push_back(fmt::format("{}, {}: {} pairs left out, a value in them is not positive.", quantity.name,
-                                          method.name, found->left_out));
+      table.add(bias_row(method));
+      if (const std::size_t left_out = method.pairs.size() - usable_pairs(method.pairs); left_out > 0)
+        table.notes.push_back(fmt::format("{}, {}: {} pair{} left out, a value in {} is not positive.", quantity.name,
+                                          method.name, left_out, left_out == 1 ? "" : "s",
+                                          left_out == 1 ? "it" : "them"));
     }
   }
   if (const std::string note = left_out_note(data); !note.empty()) table.notes.push_back(note);

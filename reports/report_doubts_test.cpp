@@ -127,6 +127,14 @@ TEST(Doubts, SeriesOfOtherCodesHaveTheirHashAndSources) {
   EXPECT_EQ(data.runs[0].series_hash.substr(0, 8), "fnv1a64:");
 }
 
+TEST(Doubts, FurtherMeasuredFilesOfARunAreShownByTheirHashes) {
+  const fs::path run = fresh("doubts_further_files");
+  synthetic::write_force_run(run, {});
+  put_in_manifest(run, {{"data_hash", "fnv1a64:01"}, {"other_data_hashes", {{"data/a/velocity.csv", "fnv1a64:23"}}}});
+  EXPECT_EQ(test_files::cell(provenance_table(analyse({run})), "R1", "data_hash").text,
+            "fnv1a64:01, fnv1a64:23 (data/a/velocity.csv)");
+}
+
 /// The case leaves the speed of sound to the solver: one that was given makes another method.
 TEST(Doubts, AParameterThatTheCaseDoesNotListIsShownToo) {
   const fs::path usual = fresh("doubts_usual");

@@ -245,6 +245,16 @@ std::string series_source(const AnalysedRun& run) {
   return files.empty() ? text : fmt::format("{} (from {})", text, files);
 }
 
+/// The hash of the case's measured file when the run was made, and those of further files by their paths.
+std::string measured_hashes(const RunRecord& run) {
+  std::string text = run.text("data_hash").value_or("");
+  const auto others = run.manifest.find("other_data_hashes");
+  if (others == run.manifest.end() || !others->is_object()) return text;
+  for (const auto& [path, hash] : others->items())
+    if (hash.is_string()) text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", hash.get<std::string>(), path);
+  return text;
+}
+
 Table provenance_table(const ReportData& data) {
   Table table;
   table.name = "provenance";
@@ -273,7 +283,7 @@ Table provenance_table(const ReportData& data) {
                text_cell(r.text("commit")), text_cell(r.text("compiler")), text_cell(r.text("flags")),
                text_cell(r.text(r.text("machine") ? "machine" : "cpu")), whole(r.number("threads")),
                time_cell(r.number("wall_time_s")), time_cell(r.number("cpu_time_s")), text_cell(r.text("case_hash")),
-               text_cell(r.text("data_hash")), run.series_hash.empty() ? missing() : word(series_source(run)),
+               text_cell(measured_hashes(r)), run.series_hash.empty() ? missing() : word(series_source(run)),
                whole(r.number("lost.over_top")), through});
   }
   std::string measured;

@@ -110,7 +110,6 @@ void ProbeWriter::append(double t_s, std::span<const double> values) {
   last_t_s_ = t_s;
   ++rows_;
   if (!flush_is_due()) return;
-  if (trouble_.empty()) trouble_since_ = std::chrono::steady_clock::now();
   try {
     flush();
   } catch (const std::runtime_error&) {
@@ -147,6 +146,7 @@ void ProbeWriter::write_buffer() {
   if (std::filesystem::is_regular_file(path_, ignored)) std::filesystem::resize_file(path_, bytes_on_disk_, ignored);
   std::clearerr(file_);
   std::fseek(file_, 0, SEEK_END);
+  if (trouble_.empty()) trouble_since_ = std::chrono::steady_clock::now();
   trouble_ = fmt::format(
       "{}: cannot be written ({}); free space on that disk or write to another one (rows up to byte {} are kept)",
       path_.string(), std::generic_category().message(cause), bytes_on_disk_);

@@ -121,7 +121,7 @@ class ProbeWriter {
   std::string trouble_;
   std::uintmax_t bytes_on_disk_ = 0;
   std::chrono::steady_clock::time_point last_flush_;
-  std::chrono::steady_clock::time_point trouble_since_;
+  std::chrono::steady_clock::time_point trouble_since_;  ///< where there is one: of the first write that failed
   double last_t_s_ = 0;
   std::int64_t rows_ = 0;
 };

@@ -254,6 +254,18 @@ TEST_F(ProbesFile, RowsWaitForADiskThatIsFull) {
   EXPECT_EQ(text(), "t_s,P1_Pa\n0,1\n1,123456789\n2,3\n");
 }
 
+/// Whoever finds the disk full first, be it a checkpoint: from then on rows wait for as long as they may.
+TEST_F(ProbesFile, RowsWaitFromTheFirstWriteThatFailed) {
+  ProbeWriter writer(path_, {"P1_Pa"});
+  const FileSizeLimit limit(20);
+  writer.append(0, std::vector<double>{1});
+  writer.append(1, std::vector<double>{123456789});
+  EXPECT_THROW(writer.flush_to_disk(), std::runtime_error);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // until a flush is due
+  EXPECT_NO_THROW(writer.append(2, std::vector<double>{3}));
+  EXPECT_NE(writer.trouble(), "");
+}
+
 TEST_F(ProbesFile, RowsDoNotWaitForEver) {
   ProbeWriter writer(path_, {"P1_Pa"});
   writer.patience = {};

@@ -217,5 +217,18 @@ TEST(Doubts, WithoutOwnImpulsesThePapersAreNamedByThemselves) {
   EXPECT_FALSE(has("The same in the paper (WCSPH)"));
 }
 
+TEST(Doubts, OfAnotherVersionOfTheCaseFileIsWhatWasComputedFromOtherInputs) {
+  const fs::path run = fresh("doubts_case");
+  synthetic::write_run(run, {});
+  const std::string other = "another version of the case file";
+  EXPECT_FALSE(any_has(analyse({run}).runs[0].problems, other));
+  put_in_manifest(run, {{"case_hash", "of before"}});
+  EXPECT_TRUE(any_has(analyse({run}).runs[0].problems, other)) << "a run that does not tell more";
+  put_in_manifest(run, {{"computed_hash", load_case("kleefsman").computed_hash}});
+  EXPECT_FALSE(any_has(analyse({run}).runs[0].problems, other)) << "another remark, or another band";
+  put_in_manifest(run, {{"computed_hash", "of before"}});
+  EXPECT_TRUE(any_has(analyse({run}).runs[0].problems, "which differs in what is computed"));
+}
+
 }  // namespace
 }  // namespace sluice

@@ -23,9 +23,12 @@ void note_ending(Problems& problems, const RunRecord& record) {
 }
 
 void note_other_case(Problems& problems, const RunRecord& record, const Case& c) {
-  if (const auto hash = record.text("case_hash"); hash && *hash != c.hash)
-    problems.push_back(
-        fmt::format("made with another version of the case file ({}; this report reads {})", *hash, c.hash));
+  const auto hash = record.text("case_hash");
+  const std::string computed = record.text("computed_hash").value_or("");
+  if (!hash || has_inputs_of(c, computed, *hash)) return;
+  problems.push_back(
+      fmt::format("made with another version of the case file ({}; this report reads {}){}", *hash, c.hash,
+                  computed.empty() ? "" : ", which differs in what is computed, not in words or bands alone"));
 }
 
 void note_coverage(Problems& problems, const RunRecord& record, const ReportData& data) {

@@ -8,8 +8,9 @@
 
 namespace sluice {
 
-/// Of a run whose readings are there: how it ended, what part of the window it covers, by which other case file it was
-/// made, columns that no sensor reads, values that look like those of another unit, particles through walls.
+/// Of a run whose readings are there: how it ended, what part of the window it covers, from which other inputs of the
+/// case file it was made, columns that no sensor reads, values that look like those of another unit, particles through
+/// walls.
 std::vector<std::string> run_problems(const AnalysedRun& run, const ReportData& data);
 
 }  // namespace sluice

@@ -37,14 +37,22 @@ bool holds_results(const fs::path& directory) {
          fs::exists(directory / "probes.csv");
 }
 
+std::string text_of(const json& manifest, const char* key) {
+  return manifest.contains(key) && manifest[key].is_string() ? manifest[key].get<std::string>() : "";
+}
+
 /// Keys of a manifest that are not as the run is asked for.
 std::vector<std::string> other_inputs(const json& manifest, const Case& c, const RunSettings& s) {
-  const std::vector<std::pair<const char*, json>> inputs{
-      {"case_hash", c.hash},       {"solver", s.solver},
-      {"walls", s.walls},          {"l0_m", s.l0_m},
-      {"t_end_s", s.t_end_s},      {"output_rate_Hz", s.output_rate_Hz},
-      {"parameters", s.parameters}};
+  const std::vector<std::pair<const char*, json>> inputs{{"solver", s.solver},
+                                                         {"walls", s.walls},
+                                                         {"l0_m", s.l0_m},
+                                                         {"t_end_s", s.t_end_s},
+                                                         {"output_rate_Hz", s.output_rate_Hz},
+                                                         {"parameters", s.parameters}};
   std::vector<std::string> others;
+  const std::string computed = text_of(manifest, "computed_hash");
+  if (!has_inputs_of(c, computed, text_of(manifest, "case_hash")))
+    others.emplace_back(computed.empty() ? "case_hash" : "computed_hash");
   for (const auto& [key, value] : inputs)
     if (!manifest.contains(key) || manifest[key] != value) others.emplace_back(key);
   return others;
@@ -57,10 +65,6 @@ double checkpoint_time_s(const fs::path& directory) {
   } catch (const std::exception&) {
     return 0;
   }
-}
-
-std::string text_of(const json& manifest, const char* key) {
-  return manifest.contains(key) && manifest[key].is_string() ? manifest[key].get<std::string>() : "";
 }
 
 /// Whether snapshots are asked for that the run was not told to write. Manifests that do not say it yet: whether a

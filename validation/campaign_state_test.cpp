@@ -63,6 +63,22 @@ TEST_F(CampaignStateTest, StatesFollowInputs) {
   EXPECT_FALSE(can_be_reported(c, run));
 }
 
+TEST_F(CampaignStateTest, WordsAndBandsOfTheCaseMakeNoRunOutdated) {
+  const Campaign c = load(two_groups);
+  const CampaignRun& run = c.runs[0];
+  auto done = manifest(c, run, "finished");
+  done["case_hash"] = "of the file before a comment";
+  put(run, done);
+  EXPECT_EQ(why_outdated(c, run), "not as in its run.json: case_hash") << "an older manifest";
+  done["computed_hash"] = c.case_of(run).computed_hash;
+  put(run, done);
+  EXPECT_EQ(state_of(c, run), CampaignState::finished);
+  EXPECT_TRUE(can_be_reported(c, run));
+  done["computed_hash"] = "of other sensors";
+  put(run, done);
+  EXPECT_EQ(why_outdated(c, run), "not as in its run.json: computed_hash");
+}
+
 TEST_F(CampaignStateTest, ARunWithoutTheSnapshotsAskedForIsOutdated) {
   const Campaign campaign =
       load("name = \"c\"\n[[runs]]\ncase = \"kleefsman\"\nsolver = \"mps\"\nl0_m = [0.05]\nsnapshots = true\n");

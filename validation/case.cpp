@@ -185,6 +185,10 @@ Case load_case(const std::string& name_or_path) {
   return parse_case(read_text(file, "give the name of a case or the path of its TOML file"), file.string());
 }
 
+bool has_inputs_of(const Case& c, std::string_view computed_hash, std::string_view hash) {
+  return hash == c.hash || (!computed_hash.empty() && computed_hash == c.computed_hash);
+}
+
 std::string outside_case_file(const Case& c) {
   std::error_code error;
   const std::filesystem::path own = case_directory() / (c.name + ".toml");

@@ -181,6 +181,7 @@ struct Case {
   std::vector<std::string> assumptions;  ///< what the sources leave open, in words; every report repeats them
   std::filesystem::path file;            ///< where it was read from
   std::string hash;                      ///< of the file's bytes, as file_hash() gives
+  std::string computed_hash{};           ///< of the inputs alone, see computed_hash.h
 
   Box tank;  ///< inner faces [m]
   std::vector<Box> fluid;
@@ -238,6 +239,10 @@ SceneDescription scene_description(const Case& c, double l0_m, int wall_layers);
 /// Reads a case by name ("kleefsman": validation/cases/kleefsman.toml under case_directory()) or by the path of its
 /// TOML file. Throws CaseError; for an unknown name the message lists those that exist.
 Case load_case(const std::string& name_or_path);
+
+/// Whether a run or checkpoint that tells these hashes was computed from the inputs that the case has now.
+/// `computed_hash` is empty where it is not told, as by older ones: then the file must be the same, byte for byte.
+bool has_inputs_of(const Case& c, std::string_view computed_hash, std::string_view hash);
 
 /// Adds the acceptance rows of a file of their own, for a solver that the case need not know: [[acceptance]] groups as
 /// in a case file, where `walls`, `alpha` and `l0_m` may be left out. Throws CaseError naming file, line and key.

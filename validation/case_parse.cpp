@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "validation/case.h"
+#include "validation/computed_hash.h"
 #include "validation/file_hash.h"
 #include "validation/solver_factory.h"
 #include "validation/suggest.h"
@@ -211,6 +212,7 @@ Case parse_case(std::string_view text, const std::string& file) {
   Case c = parse_root(TomlReader(table, file));
   c.file = file;
   c.hash = text_hash(text);
+  c.computed_hash = computed_hash(table);
   return c;
 }
 

@@ -18,7 +18,7 @@ constexpr double longest_probe_s = 10;  // whatever else the machine does: a rou
 constexpr double worth_a_probe_s = 20;
 constexpr std::int64_t most_particles = 300'000;
 
-double seconds_since(std::chrono::steady_clock::time_point begin) {
+double elapsed_s(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
@@ -55,13 +55,13 @@ void probe_into(std::vector<RunCost>& probed, const Case& c, const RunSettings& 
 RunCost probe_cost(const Case& c, const RunSettings& settings) {
   const auto solver = make_solver(c, build_scene(scene_description(c, settings)), settings);
   const auto start = std::chrono::steady_clock::now();
-  for (int k = 0; k < steps_to_warm_up && seconds_since(start) < longest_probe_s; ++k) solver->step();
+  for (int k = 0; k < steps_to_warm_up && elapsed_s(start) < longest_probe_s; ++k) solver->step();
   const std::int64_t warmed_up = solver->steps();
   const auto begin = std::chrono::steady_clock::now();
   do {
     solver->step();
-  } while ((solver->steps() < warmed_up + fewest_steps || seconds_since(begin) < probe_s) &&
-           seconds_since(start) < longest_probe_s);
+  } while ((solver->steps() < warmed_up + fewest_steps || elapsed_s(begin) < probe_s) &&
+           elapsed_s(start) < longest_probe_s);
   RunCost cost;
   cost.case_hash = c.hash;
   cost.solver = settings.solver;
@@ -72,7 +72,7 @@ RunCost probe_cost(const Case& c, const RunSettings& settings) {
   cost.steps = static_cast<double>(solver->steps() - warmed_up);
   cost.fluid = static_cast<double>(solver->fluid_count());
   cost.solid = static_cast<double>(solver->solid_count());
-  cost.wall_time_s = seconds_since(begin) * solver_cost(settings).whole_run_over_first_steps;
+  cost.wall_time_s = elapsed_s(begin) * solver_cost(settings).whole_run_over_first_steps;
   cost.probed = true;
   return cost;
 }

@@ -238,6 +238,50 @@ TEST_F(ResumeTest, GoesOnWithACaseThatHasMoved) {
   EXPECT_EQ(resume_run(parts, options).status, "finished");
 }
 
+TEST_F(ResumeTest, GoesOnWhereOnlyWordsAndBandsOfTheCaseHaveChanged) {
+  trouble = [](FakeSolver& solver) {
+    if (solver.steps() == 60) std::raise(SIGINT);
+  };
+  const fs::path parts = directory / "parts";
+  run(parts);
+  trouble = {};
+  std::string text = "# A remark.\n" + contents(c.file);
+  const auto band = text.rfind("within = ");
+  ASSERT_NE(band, std::string::npos);
+  ResumeOptions options;
+  options.factory = factory;
+  options.the_case = parse_case(text.insert(band + 9, "1"), c.file.string());
+  nlohmann::json header = read_checkpoint_header(parts / checkpoint_file);
+  const fs::path older = directory / "older";
+  fs::copy(parts, older, fs::copy_options::recursive);
+  FakeSolver state(Scene{}, 1e-3);
+  header.erase("computed_hash");
+  write_checkpoint(older / checkpoint_file, header, state);
+  EXPECT_THROW(resume_run(older, options), std::runtime_error) << "it does not tell what it was computed from";
+  EXPECT_EQ(resume_run(parts, options).status, "finished");
+  EXPECT_EQ(read_run(parts).text("case_hash"), options.the_case->hash);
+}
+
+TEST_F(ResumeTest, RefusesACaseOfOtherInputs) {
+  trouble = [](FakeSolver& solver) {
+    if (solver.steps() == 60) std::raise(SIGINT);
+  };
+  const fs::path parts = directory / "parts";
+  run(parts);
+  std::string text = contents(c.file);
+  const std::string rate = "output_rate_Hz = 1000.0";
+  ASSERT_NE(text.find(rate), std::string::npos);
+  ResumeOptions options;
+  options.factory = factory;
+  options.the_case = parse_case(text.replace(text.find(rate), rate.size(), "output_rate_Hz = 500.0"), c.file.string());
+  try {
+    resume_run(parts, options);
+    FAIL() << "accepted";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr(c.file.string()), HasSubstr("has changed in what is computed")));
+  }
+}
+
 TEST_F(ResumeTest, RefusesWhatItCannotGoOnWith) {
   const auto refusal = [&](const fs::path& out) -> std::string {
     try {

@@ -104,11 +104,11 @@ Case load_case_of(const fs::path& directory, const RunHeader& header) {
 }
 
 void refuse_changed_case(const Case& c, const RunHeader& header) {
-  if (c.hash == header.case_hash) return;
-  throw std::runtime_error(
-      fmt::format("{}: has changed since the run was begun; put the old file back, or start the run anew with `sluice "
-                  "run ... --force`",
-                  c.file.string()));
+  if (has_inputs_of(c, header.computed_hash, header.case_hash)) return;
+  throw std::runtime_error(fmt::format(
+      "{}: has changed {}since the run was begun; put the old file back, or start the run anew with `sluice "
+      "run ... --force`",
+      c.file.string(), header.computed_hash.empty() ? "" : "in what is computed "));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ struct RunOptions {
 
 /// Choices for going on with a run; all else stands in its checkpoint.
 struct ResumeOptions {
-  std::optional<Case> the_case;  ///< none: read from where it was when the run began; must not have changed
+  std::optional<Case> the_case;  ///< none: read from where it was when the run began; its inputs must not have changed
   int threads = 0;               ///< 0: as many as before
   std::FILE* progress = nullptr;
   bool terminal = false;
@@ -59,7 +59,7 @@ RunOutcome run_case(const Case& c, const RunSettings& settings, const RunOptions
 
 /// Goes on with a run from its checkpoint, as if it had never stopped: probes.csv, snapshots and manifest come out as
 /// those of a run in one go, bit for bit where they hold results. Throws std::runtime_error when there is nothing to go
-/// on with, the checkpoint cannot be read, or the case has changed since; nothing is then touched.
+/// on with, the checkpoint cannot be read, or the case's inputs have changed since; nothing is then touched.
 RunOutcome resume_run(const std::filesystem::path& directory, const ResumeOptions& options);
 
 }  // namespace sluice

@@ -62,6 +62,7 @@ json to_json(const RunHeader& h) {
   return {{"settings", to_json(h.settings)},
           {"case_file", h.case_file},
           {"case_hash", h.case_hash},
+          {"computed_hash", h.computed_hash},
           {"commit", h.commit},
           {"tally", to_json(p.tally)},
           {"probes", {{"bytes", p.probes.bytes}, {"rows", p.probes.rows}, {"last_t_s", p.probes.last_t_s}}},
@@ -79,6 +80,7 @@ RunHeader run_header_from(const json& j) {
   h.settings = settings_from(j.at("settings"));
   h.case_file = j.at("case_file");
   h.case_hash = j.at("case_hash");
+  h.computed_hash = j.value("computed_hash", "");
   h.commit = j.at("commit");
   RunPoint& p = h.point;
   p.tally = tally_from(j.at("tally"));

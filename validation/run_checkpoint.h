@@ -30,7 +30,8 @@ struct RunHeader {
   RunSettings settings;
   std::string case_file;  ///< where the case was read from
   std::string case_hash;
-  std::string commit;  ///< of the program that wrote it
+  std::string computed_hash;  ///< empty in checkpoints that do not tell it yet
+  std::string commit;         ///< of the program that wrote it
   RunPoint point;
 };
 

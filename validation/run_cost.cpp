@@ -40,6 +40,7 @@ std::optional<RunCost> cost_of(const json& m, const std::string& machine) {
   if (m.at("status") != "finished" || m.at("machine") != machine || !difference_of_legs(m).empty()) return std::nullopt;
   RunCost cost;
   cost.case_hash = m.at("case_hash");
+  cost.computed_hash = m.value("computed_hash", "");
   cost.solver = m.at("solver");
   cost.walls = m.at("walls");
   cost.parameters = all_but_alpha(m.at("parameters"));
@@ -53,6 +54,10 @@ std::optional<RunCost> cost_of(const json& m, const std::string& machine) {
   cost.wall_time_s = m.at("wall_time_s");
   const bool makes_sense = cost.l0_m > 0 && cost.time_s > 0 && cost.steps > 0 && cost.fluid > 0 && cost.wall_time_s > 0;
   return makes_sense ? std::optional(cost) : std::nullopt;
+}
+
+bool is_of_case(const RunCost& cost, const Case& c) {
+  return has_inputs_of(c, cost.computed_hash, cost.case_hash);
 }
 
 /// In the order of their names; none where there is no such directory.
@@ -112,13 +117,13 @@ void reckon_by(const std::vector<RunCost>& costs, const Case& c, const RunSettin
     if (!is_of_kind(cost, s)) continue;
     const double apart = std::abs(std::log(cost.l0_m / s.l0_m)) + 0.35 * decades_apart(cost.alpha, alpha) +
                          (cost.parameters == parameters || cost.probed ? 0.0 : 1.0) +
-                         (cost.case_hash == c.hash ? 0.0 : 10.0) + (cost.probed ? 5.0 : 0.0);
+                         (is_of_case(cost, c) ? 0.0 : 10.0) + (cost.probed ? 5.0 : 0.0);
     if (apart >= least) continue;
     least = apart;
     nearest = &cost;
   }
   if (nearest == nullptr) return;
-  if (nearest->case_hash == c.hash && nearest->parameters == parameters) {
+  if (is_of_case(*nearest, c) && nearest->parameters == parameters) {
     plan.steps = nearest->steps * (nearest->l0_m / s.l0_m) * (s.t_end_s / nearest->time_s);
     plan.dt_s = s.t_end_s / plan.steps;
   }

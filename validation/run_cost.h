@@ -14,6 +14,7 @@ namespace sluice {
 /// A finished run on this machine.
 struct RunCost {
   std::string case_hash;
+  std::string computed_hash;  ///< empty where its manifest does not tell it yet
   std::string solver;
   std::string walls;
   std::string parameters;  ///< all but alpha, as JSON

@@ -58,6 +58,7 @@ RunLoop::RunLoop(RunParts parts, const RunStart& start, const std::optional<RunP
       options_(parts.options),
       case_file_(std::filesystem::absolute(parts.the_case.file).string()),
       case_hash_(parts.the_case.hash),
+      computed_hash_(parts.the_case.computed_hash),
       solver_(std::move(parts.solver)),
       sensors_(parts.the_case, parts.scene, solver_->smoothing_length_m(), settings_.solver, settings_.walls),
       probes_(probe_writer(options_.out / "probes.csv", sensors_, point)),
@@ -227,8 +228,9 @@ std::string RunLoop::save_checkpoint() {
     point.tally.earlier_phases.clear();
     for (const auto& [phase, time_s] : manifest_.at("phases").items())
       if (phase != "sensors" && phase != "output") point.tally.earlier_phases[phase] = time_s;
-    write_checkpoint(options_.out / checkpoint_file,
-                     to_json({settings_, case_file_, case_hash_, build_info().commit, std::move(point)}), *solver_);
+    write_checkpoint(
+        options_.out / checkpoint_file,
+        to_json({settings_, case_file_, case_hash_, computed_hash_, build_info().commit, std::move(point)}), *solver_);
     log_.line(fmt::format("checkpoint at t = {:.6f} s, step {}", solver_->time_s(), solver_->steps()));
     return "";
   } catch (const std::exception& error) {

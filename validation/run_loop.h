@@ -70,6 +70,7 @@ class RunLoop {
   const RunOptions& options_;
   std::string case_file_;
   std::string case_hash_;
+  std::string computed_hash_;
   std::unique_ptr<Solver> solver_;
   SensorArray sensors_;
   ProbeWriter probes_;

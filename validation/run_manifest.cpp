@@ -29,6 +29,7 @@ void put_provenance(json& m, const Case& c) {
   m["machine"] = machine_fingerprint();
   m["started"] = utc_now();
   m["case_hash"] = c.hash;
+  m["computed_hash"] = c.computed_hash;
   m["data_hash"] = nullptr;
   for (const MeasuredFile& file : measured_files(c)) {
     if (!file.present())

@@ -115,6 +115,7 @@ TEST_F(RunTest, ManifestTellsTheRun) {
   EXPECT_GT(r.number("peak_memory_bytes").value(), 1e6);
   EXPECT_EQ(r.text("commit"), build_info().commit);
   EXPECT_EQ(r.text("case_hash"), c.hash);
+  EXPECT_EQ(r.text("computed_hash"), c.computed_hash);
   // nu0 = alpha h c0 / 10 with h = 1.5 l0 and c0 = 20 sqrt(g H_W).
   EXPECT_NEAR(r.number("equivalent_viscosity_m2_s").value(), 0.01 * 0.075 * 20 * std::sqrt(9.81 * 0.55) / 10, 1e-9);
   const Scene scene = build_scene(scene_description(c, 0.05, 3));

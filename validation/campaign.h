@@ -66,9 +66,9 @@ bool can_be_reported(const Campaign& campaign, const CampaignRun& run);
 std::string why_outdated(const Campaign& campaign, const CampaignRun& run);
 std::string to_string(CampaignState state);
 
-/// Makes way for a run's successor, and loses nothing: moves a run to the folder `outdated` beside it (as RUN, or
-/// RUN-2, RUN-3, ... where there is one), and returns where it is now. Throws std::runtime_error where another program
-/// computes there, or where it cannot be moved.
+/// Makes way for a run's successor (begin_anew.h), and loses nothing: moves a run to the folder `outdated` beside it
+/// (as RUN, or RUN-2, RUN-3, ... where there is one), and returns where it is now. Throws std::runtime_error where
+/// another program computes there, or where it cannot be moved.
 std::filesystem::path set_aside(const std::filesystem::path& run);
 
 /// What a run will cost.

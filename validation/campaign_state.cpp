@@ -118,8 +118,9 @@ fs::path set_aside(const fs::path& run) {
     fs::create_directories(folder);
     fs::rename(run, place);
   } catch (const fs::filesystem_error& error) {
-    throw std::runtime_error(fmt::format("{}: is outdated and cannot be moved to {}: {} (move it away, or remove it)",
-                                         run.string(), place.string(), error.code().message()));
+    throw std::runtime_error(
+        fmt::format("{}: cannot be moved to {}, to make way for a new run: {} (move it away, or remove it)",
+                    run.string(), place.string(), error.code().message()));
   }
   return place;
 }

@@ -31,6 +31,10 @@ std::string cpu_field(const std::string& name) {
 
 }  // namespace
 
+bool names_one_build(std::string_view commit) {
+  return !commit.empty() && commit != "unknown" && !commit.ends_with("-dirty");
+}
+
 std::string cpu_model() {
   const std::string model = cpu_field("model name");
   return model.empty() ? "unknown" : model;

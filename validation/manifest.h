@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 namespace sluice {
 
@@ -21,6 +22,10 @@ struct BuildInfo {
   std::filesystem::path source_root;
 };
 const BuildInfo& build_info();
+
+/// Whether a commit, as in BuildInfo, tells what a program was built from: an unknown one may be any, and "-dirty"
+/// stands for whatever changes.
+bool names_one_build(std::string_view commit);
 
 /// The processor's model name as the system gives it, or "unknown".
 std::string cpu_model();

@@ -19,7 +19,7 @@ using SolverFactory = std::function<std::unique_ptr<Solver>(const Case&, const S
 
 struct RunOptions {
   std::filesystem::path out;
-  bool force = false;                                  ///< replace a finished run that stands in `out`
+  bool force = false;                                  ///< replace what stands in `out`, results and all
   std::FILE* progress = nullptr;                       ///< plan and progress go here; nullptr: nowhere
   double checkpoint_every_s = 600;                     ///< wall time; 0: only when the run is interrupted
   bool log_steps = false;                              ///< log.txt has a line for every step

@@ -125,6 +125,14 @@ RunRecord read_run(const fs::path& directory) {
   return run;
 }
 
+bool has_rows(const fs::path& directory) {
+  const fs::path file = directory / "probes.csv";
+  if (!fs::is_regular_file(file)) return false;
+  std::ifstream in(file);
+  std::string header;
+  return std::getline(in, header) && in.peek() != std::ifstream::traits_type::eof();
+}
+
 RunRecord parse_run(std::string_view manifest, const fs::path& directory) {
   RunRecord run;
   run.path = directory;

@@ -44,6 +44,9 @@ struct RunRecord {
 /// std::runtime_error naming the file and what is missing or malformed.
 RunRecord read_run(const std::filesystem::path& directory);
 
+/// Whether the directory's probes.csv holds rows, or what may have been some.
+bool has_rows(const std::filesystem::path& directory);
+
 /// The same from the text of its run.json alone, without probes; messages call it `directory`/run.json.
 RunRecord parse_run(std::string_view manifest, const std::filesystem::path& directory);
 

@@ -9,6 +9,7 @@
 
 #include "validation/checkpoint.h"
 #include "validation/manifest.h"
+#include "validation/run_directory.h"
 
 namespace sluice {
 namespace {
@@ -51,7 +52,7 @@ RunLock prepare_run_directory(const fs::path& directory, bool force) {
       throw std::runtime_error(
           fmt::format("{}: holds a run that can go on, status {} (`sluice resume {}` does that; --force replaces it)",
                       directory.string(), status, directory.string()));
-    if (!force && status != "failed" && status != "interrupted")
+    if (!force && ((status != "failed" && status != "interrupted") || has_rows(directory)))
       throw std::runtime_error(
           fmt::format("{}: holds a run already, status {} (use --force to replace it, or choose another --out)",
                       directory.string(), status));

@@ -251,12 +251,25 @@ TEST_F(RunTest, AnInterruptedRunIsNotReplacedUnlessForced) {
   EXPECT_EQ(run().status, "finished");
 }
 
-TEST_F(RunTest, AFailedRunIsReplaced) {
+TEST_F(RunTest, ARunThatFailedBeforeItsFirstRowIsReplaced) {
+  const SolverFactory good = options.factory;
+  options.factory = [](const Case&, const Scene&, const RunSettings&) -> std::unique_ptr<Solver> {
+    throw std::invalid_argument("out of its range");
+  };
+  EXPECT_EQ(run().status, "failed");
+  options.factory = good;
+  EXPECT_EQ(run().status, "finished");
+}
+
+TEST_F(RunTest, AFailedRunWithRowsIsNotReplacedUnlessForced) {
   trouble = [](FakeSolver& solver) {
     if (solver.steps() == 5) throw std::runtime_error("out of luck");
   };
   EXPECT_EQ(run().status, "failed");
   trouble = nullptr;
+  EXPECT_THROW(run(), std::runtime_error) << "its series and its last state tell why it failed";
+  EXPECT_EQ(read_run(directory).snapshots().size(), 1u);
+  options.force = true;
   EXPECT_EQ(run().status, "finished");
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/begin_anew.h"
 #include "validation/cli/campaign_report.h"
 #include "validation/cli/campaign_slurm.h"
 #include "validation/cli/commands.h"
@@ -110,8 +111,7 @@ RunOutcome resume(const fs::path& directory, const ResumeOptions& options, const
 RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const CampaignArguments& arguments,
                    const std::optional<Plan>& plan) {
   const bool terminal = isatty(STDERR_FILENO) == 1;
-  const CampaignState state = arguments.force ? CampaignState::absent : state_of(campaign, run);
-  if (state == CampaignState::resumable) {
+  if (!arguments.force && state_of(campaign, run) == CampaignState::resumable) {
     ResumeOptions options;
     options.threads = run.settings.threads;
     options.progress = stderr;
@@ -120,26 +120,15 @@ RunOutcome compute(const Campaign& campaign, const CampaignRun& run, const Campa
     options.the_case = campaign.case_of(run);
     return resume(run.directory, options, arguments);
   }
-  fs::path aside;
-  if (state == CampaignState::outdated) {
-    const std::string why = reason(campaign, run);
-    aside = set_aside(run.directory);
-    tell(stderr, fmt::format("outdated{}: kept as {}\n", why, aside.string()));
-  }
   RunOptions options;
-  options.out = run.directory;
-  options.force = true;  // the directory is the campaign's own
   options.progress = stderr;
   options.terminal = terminal;
   options.checkpoint_every_s = arguments.checkpoint_every_s;
   options.plan = plan;
-  try {
-    return run_case(campaign.case_of(run), run.settings, options);
-  } catch (const std::exception&) {
-    // Refused: what there is stays where the report looks for it.
-    if (!aside.empty() && !fs::exists(run.directory)) fs::rename(aside, run.directory);
-    throw;
-  }
+  if (!arguments.force) return begin_anew(campaign, run, options);
+  options.out = run.directory;
+  options.force = true;
+  return run_case(campaign.case_of(run), run.settings, options);
 }
 
 /// A run that fails is told and does not stop the others. Returns the code of an interruption, or 0.

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "validation/cli/program_test.h"
+#include "validation/manifest.h"
 #include "validation/run_directory.h"
 
 namespace sluice {
@@ -32,14 +33,15 @@ class CommandLine : public program_test::InDirectory {
   int interrupted(const std::string& arguments, const fs::path& run) const {
     // SIGTERM, since a shell without job control starts programs in the background with SIGINT ignored.
     const int status = std::system(
-        fmt::format("bash -c '{} {} >/dev/null 2>&1 & pid=$!; while ! grep -qs . {}/probes.csv; do sleep 0.1; done; "
+        fmt::format("bash -c '{} {} >/dev/null 2>{} & pid=$!; while ! grep -qs . {}/probes.csv; do sleep 0.1; done; "
                     "kill -TERM $pid; wait $pid'",
-                    program, arguments, run.string())
+                    program, arguments, told_when_interrupted.string(), run.string())
             .c_str());
     return WEXITSTATUS(status);
   }
 
   std::string program = program_test::program_path("SLUICE_PROGRAM", "sluice");
+  fs::path told_when_interrupted = directory / "interrupted";
 };
 
 TEST_F(CommandLine, HelpAndVersionGoToStdout) {
@@ -133,11 +135,17 @@ TEST_F(CommandLine, AnInterruptedValidationGoesOnOrKeepsWhatItHad) {
       "validate {0}/short.toml --solver mps --threads 1 --runs {0}/runs --out {0}/report", directory.string());
   const fs::path run = directory / "runs" / "validate-quick-kleefsman-mps-dummies";
   ASSERT_EQ(interrupted(command, run), 143);
-  const bool same_build = !read_run(run).text("commit").value_or("").ends_with("-dirty");
+  const bool same_build = names_one_build(read_run(run).text("commit").value_or(""));
+  EXPECT_THAT(contents(told_when_interrupted), HasSubstr(same_build ? "the same command goes on with this run"
+                                                                    : "the same command begins this run anew"));
+  EXPECT_EQ(contents(told_when_interrupted).find("sluice resume ") == std::string::npos, same_build);
   sluice(command);
   EXPECT_EQ(read_run(run).status(), "finished");
   EXPECT_EQ(read_run(run).number("resumed").value_or(0), same_build ? 1 : 0);
-  EXPECT_EQ(fs::exists(directory / "runs" / "outdated" / run.filename()), !same_build);
+  const fs::path outdated = directory / "runs" / "outdated";
+  EXPECT_EQ(fs::exists(outdated / run.filename()), !same_build);
+  EXPECT_EQ(sluice(command + " --reuse").err.find("reused") != std::string::npos, same_build);
+  EXPECT_THAT(sluice(command).err, HasSubstr("finished before: kept as " + (outdated / run.filename()).string()));
 }
 
 TEST_F(CommandLine, ARunDoesNotTakeTheFolderOfAnothersSeries) {
@@ -186,6 +194,7 @@ t_end_s = 0.01
                                HasSubstr("finished     kleefsman-wcsph")));
   EXPECT_THAT(first.out, HasSubstr("planned at its begin"));
   EXPECT_THAT(sluice(command).out, AllOf(HasSubstr("2 runs, 1 to compute"), HasSubstr("kept         kleefsman-wcsph")));
+  EXPECT_THAT(contents(directory / "stderr"), HasSubstr("unfinished, and without a checkpoint: kept as "));
 }
 
 /// With stand-ins for Slurm's programs; campaign_slurm_test has the real ones.

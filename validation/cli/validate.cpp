@@ -1,15 +1,16 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "reports/report.h"
 #include "validation/acceptance.h"
+#include "validation/begin_anew.h"
 #include "validation/campaign.h"
 #include "validation/checkpoint.h"
 #include "validation/cli/commands.h"
@@ -39,7 +40,7 @@ struct ValidateArguments {
 const char* const validate_footer =
     "Runs the case at the tier with every solver that this program has, and every wall model: those with acceptance\n"
     "rows are judged, the others stand beside them in the report. Runs land in runs/validate-TIER-...; exit code 1 "
-    "when a band is missed.\n\n"
+    "when a band is missed. What is computed anew there is first moved to runs/outdated.\n\n"
     "Examples:\n"
     "  sluice validate --tier quick\n"
     "  sluice validate --tier standard --threads 2 --out reports/standard";
@@ -58,57 +59,40 @@ const SolverOption& find_solver(const Case& c, const std::string& name) {
   throw UsageError(fmt::format("--solver: case {} has no solver `{}`{}", c.name, name, suggestion(name, names)));
 }
 
+/// Whether it is sure that this very build computed a run.
 bool is_of_this_build(const RunRecord& record) {
   const std::string commit = record.text("commit").value_or("");
-  return commit == build_info().commit && !commit.ends_with("-dirty");
+  return commit == build_info().commit && names_one_build(commit);
 }
 
-// With --reuse a finished run of this very build and case is not computed again.
-bool is_current(const Case& c, const fs::path& directory) {
-  if (!fs::exists(directory / "run.json") || !fs::exists(directory / "probes.csv")) return false;
-  const RunRecord record = read_run(directory);
-  return record.status() == "finished" && is_of_this_build(record) && record.text("case_hash") == c.hash &&
-         difference_of_legs(record.manifest).empty();
-}
-
-/// Goes on with an unfinished run of this very build, case and settings; another one is set aside.
-std::optional<RunOutcome> go_on(const Case& c, const RunSettings& settings, const fs::path& directory) {
-  if (!fs::exists(directory / checkpoint_file)) return std::nullopt;
-  const Campaign alone{"validate", {c}, {{0, settings, directory}}, {}};
-  if (state_of(alone, alone.runs.front()) == CampaignState::resumable && is_of_this_build(read_run(directory))) {
-    ResumeOptions options;
-    options.the_case = c;
-    options.threads = settings.threads;
-    options.progress = stderr;
-    options.terminal = isatty(STDERR_FILENO) == 1;
-    return resume_run(directory, options);
-  }
-  tell(stderr,
-       fmt::format("unfinished, and of another build or other inputs: kept as {}\n", set_aside(directory).string()));
-  return std::nullopt;
-}
-
-RunOutcome begin(const Case& c, const RunSettings& settings, const fs::path& directory) {
-  RunOptions options;
-  options.out = directory;
-  options.force = true;  // the directory is this command's own
+RunOutcome go_on(const CampaignRun& run, const Case& c) {
+  ResumeOptions options;
+  options.the_case = c;
+  options.threads = run.settings.threads;
   options.progress = stderr;
   options.terminal = isatty(STDERR_FILENO) == 1;
-  return run_case(c, settings, options);
+  return resume_run(run.directory, options);
 }
 
-// Throws where the run is refused.
+/// Keeps a finished run (where asked to) or goes on with an unfinished one, where it is of this very build, case and
+/// settings; else begins. Throws where the run is refused.
 RunOutcome run_once(const Case& c, const ValidateArguments& arguments, const RunRequest& request,
                     const fs::path& directory) {
-  if (arguments.reuse && is_current(c, directory)) {
-    tell(stderr, fmt::format("{}: reused\n", directory.string()));
-    return {"finished", "", 0};
+  const Campaign alone{"validate", {c}, {{0, resolve_settings(c, request), directory}}, {}};
+  const CampaignRun& run = alone.runs.front();
+  const CampaignState state = state_of(alone, run);
+  if (state == CampaignState::finished && arguments.reuse && has_rows(directory)) {
+    const RunRecord record = read_run(directory);
+    if (is_of_this_build(record) && difference_of_legs(record.manifest).empty()) {
+      tell(stderr, fmt::format("{}: reused\n", directory.string()));
+      return {"finished", "", 0};
+    }
   }
-  const RunSettings settings = resolve_settings(c, request);
-  const std::optional<RunOutcome> gone_on = go_on(c, settings, directory);
-  RunOutcome outcome = gone_on ? *gone_on : begin(c, settings, directory);
-  if (!outcome.error.empty()) tell(stderr, fmt::format("sluice: error: {}: {}\n", directory.string(), outcome.error));
-  return outcome;
+  if (state == CampaignState::resumable && is_of_this_build(read_run(directory))) return go_on(run, c);
+  RunOptions options;
+  options.progress = stderr;
+  options.terminal = isatty(STDERR_FILENO) == 1;
+  return begin_anew(alone, run, options);
 }
 
 // The default wall model first: if time runs out, it is what counts.
@@ -168,7 +152,8 @@ std::vector<RunRequest> requests(const Case& c, const ValidateArguments& argumen
 struct Computed {
   std::vector<fs::path> directories;  ///< of runs that can be judged and reported
   bool any_failed = false;
-  int interrupted = 0;  ///< exit code, or 0
+  int interrupted = 0;      ///< exit code, or 0
+  fs::path interrupted_in;  ///< the directory of the run that it met
 };
 
 // One run that is refused (a solver's memory, say) does not keep the others from their verdict.
@@ -179,7 +164,11 @@ Computed compute(const Case& c, const ValidateArguments& arguments, const Tier& 
                                fmt::format("validate-{}-{}-{}-{}", tier.name, c.name, request.solver, request.walls);
     try {
       const RunOutcome outcome = run_once(c, arguments, request, directory);
+      if (!outcome.error.empty())
+        tell(stderr, fmt::format("sluice: error: {}: {}\n", directory.string(), outcome.error));
       computed.interrupted = outcome.stop_code();
+      computed.interrupted_in = directory;
+      if (computed.interrupted != 0 && outcome.status == "finished") computed.directories.push_back(directory);
       if (computed.interrupted != 0) return computed;
       computed.any_failed = computed.any_failed || outcome.exit_code != 0;
       if (fs::exists(directory / "probes.csv"))
@@ -192,13 +181,35 @@ Computed compute(const Case& c, const ValidateArguments& arguments, const Tier& 
   return computed;
 }
 
+/// What the same command will do with what there is.
+std::string after_interruption(const Computed& computed, bool reuse) {
+  const bool sure = names_one_build(build_info().commit);
+  const bool has_checkpoint = fs::exists(computed.interrupted_in / checkpoint_file);
+  const bool has_ended = !computed.directories.empty() && computed.directories.back() == computed.interrupted_in;
+  std::vector<std::string> deeds;
+  if (!has_ended) deeds.emplace_back(sure && has_checkpoint ? "goes on with this run" : "begins this run anew");
+  if (!computed.directories.empty())
+    deeds.emplace_back(!sure   ? "computes finished ones anew"
+                       : reuse ? "keeps finished ones"
+                               : "computes finished ones anew (with --reuse it keeps them)");
+  std::string text =
+      fmt::format("interrupted; the same command {}; what it begins anew is first moved to {}\n",
+                  fmt::join(deeds, " and "), (computed.interrupted_in.parent_path() / "outdated").string());
+  if (!sure)
+    text += fmt::format("(its commit, {}, does not tell what it was built from: it takes no run for its own)\n",
+                        build_info().commit);
+  if (!sure && has_checkpoint)
+    text += fmt::format("`sluice resume {}` goes on with this run\n", computed.interrupted_in.string());
+  return text;
+}
+
 int validate(const ValidateArguments& arguments) {
   const Case c = load_case(arguments.case_name);
   const Tier& tier = find_tier(c, arguments.tier);
   if (!arguments.solver.empty()) find_solver(c, arguments.solver);
   const Computed computed = compute(c, arguments, tier);
   if (computed.interrupted != 0) {
-    tell(stderr, "interrupted; the same command goes on with this run (with --reuse it keeps those before it)\n");
+    tell(stderr, after_interruption(computed, arguments.reuse));
     return computed.interrupted;
   }
   const std::vector<fs::path>& directories = computed.directories;
@@ -224,7 +235,7 @@ void add_validate(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1024));
   command->add_option("--out", arguments->out, "Directory of the report")->capture_default_str();
   command->add_option("--runs", arguments->runs, "Directory of the runs")->capture_default_str();
-  command->add_flag("--reuse", arguments->reuse, "Keep finished runs of the same commit and case file");
+  command->add_flag("--reuse", arguments->reuse, "Keep finished runs of the same commit and inputs");
   command->footer(validate_footer);
   command->callback([arguments, &exit_code] { exit_code = validate(*arguments); });
 }

@@ -109,11 +109,15 @@ ForeignFile parse_file(TomlReader& reader, const Case& c, const fs::path& folder
 }
 
 ProbeTable read_file(TextTableReader& reader, const ForeignFile& f, std::int64_t& skipped) {
-  const std::vector<std::string> names = column_names(reader, f);
-  const std::size_t time = index_of(reader, names, f.time.column);
+  const ColumnNames found = column_names(reader, f);
+  const std::size_t time = index_of(reader, found, f.time.column);
   std::vector<std::size_t> wanted{time};
-  for (const ForeignColumn& column : f.columns) wanted.push_back(index_of(reader, names, column.column));
-  auto columns = reader.read_rows(names, {f.separator, f.decimal_comma, wanted, f.skip_incomplete_rows}, time);
+  for (const ForeignColumn& column : f.columns) wanted.push_back(index_of(reader, found, column.column));
+  RowForm form{f.separator, f.decimal_comma};
+  form.quotes = true;
+  form.wanted = wanted;
+  form.skip_incomplete = f.skip_incomplete_rows;
+  auto columns = reader.read_rows(found.names, form, time);
   skipped += reader.skipped();
   auto times = columns[time];  // a copy, as below: one column may feed time and sensors
   rescale_times(times, f.time.offset, f.time.factor, f.file, f.time.column);

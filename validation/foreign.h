@@ -14,10 +14,11 @@
 //   time = { column = "Time [s]", unit = "s", offset_s = 0.0 }
 //   columns = [ { sensor = "P1", column = "Press_0", unit = "kPa", offset = 0.0 } ]
 //
-// A column is named as in the header line, without quotes, or counted from 1 on. A header that is a comment ("# Time")
-// may name fewer columns than there are: those behind the first then have numbers. Values become SI; `offset` is added
-// first, in the column's own unit. Series of several files are joined at all their times within what all of them cover;
-// a file that has a gap there is refused.
+// A column is named as in the header line, without quotes, or counted from 1 on. Where the header has another number of
+// names than the rows have fields (a title, blanks in names between blanks) they have numbers only; a comment ("#
+// Time") keeps its first name where it has fewer. A field may stand in quotes, a row may end with a separator, and
+// exponents may begin with d or D. Values become SI; `offset` is added first, in the column's own unit. Series of
+// several files are joined at all their times within what all of them cover; a file that has a gap there is refused.
 #pragma once
 
 #include <array>

@@ -9,6 +9,7 @@
 #include "validation/case.h"
 #include "validation/digest.h"
 #include "validation/file_hash.h"
+#include "validation/foreign_test.h"
 #include "validation/run_directory.h"
 
 namespace sluice {
@@ -20,38 +21,9 @@ using testing::DoubleEq;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class ForeignTest : public testing::Test {
- protected:
-  ForeignTest() {
-    directory = fs::temp_directory_path() /
-                (std::string("sluice-foreign-") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(directory);
-    fs::create_directories(directory);
-  }
-  ~ForeignTest() override { fs::remove_all(directory); }
-
-  void write(const std::string& name, const std::string& text) const { std::ofstream(directory / name) << text; }
-  ProbeTable read(const std::string& files) const {
-    write("m.toml", "case = \"kleefsman\"\nsolver = \"other\"\nl0_m = 0.02\n" + files);
-    return read_foreign(load_foreign_map(directory / "m.toml"));
-  }
-  std::string refusal(const std::string& files) const {
-    try {
-      read(files);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "accepted";
-  }
-
-  fs::path directory;
-};
-
-const char* const plain = R"([[files]]
-file = "a.csv"
-time = { column = "time_s", unit = "s" }
-columns = [ { sensor = "P1", column = "P1_Pa", unit = "Pa" }, { sensor = "H2", column = "H2_m", unit = "m" } ]
-)";
+using foreign_test::ForeignTest;
+using foreign_test::mapped;
+using foreign_test::plain;
 
 TEST_F(ForeignTest, ColumnsAreFoundByNameAndOthersMayHoldAnything) {
   write("a.csv", "time_s,remark,H2_m,P1_Pa\n0,dry,0.0,5\n0.5,wet,0.1,7.5\n");
@@ -104,61 +76,6 @@ columns = [
   EXPECT_THAT(t.names(), ElementsAre("H2_m", "H4_m", "P1_Pa", "P2_Pa"));
   EXPECT_THAT(t.values("H4_m"), ElementsAre(0.55, 0.549));
   EXPECT_THAT(t.values("P2_Pa"), ElementsAre(0, -0.3));
-}
-
-TEST_F(ForeignTest, BlanksAndNumbersForNames) {
-  write("a.dat", "0.0   10  1\n0.1\t20  2\n");
-  const ProbeTable t = read(R"([[files]]
-file = "a.dat"
-separator = "blank"
-header_lines = 0
-time = { column = "1", unit = "s" }
-columns = [ { sensor = "P2", column = "3", unit = "hPa" } ]
-)");
-  EXPECT_THAT(t.values("P2_Pa"), ElementsAre(100, 200));
-}
-
-/// A map's entry for a file of times `t` and one column.
-std::string mapped(const std::string& file, const std::string& time_unit, const std::string& sensor,
-                   const std::string& column, const std::string& unit) {
-  return "[[files]]\nfile = \"" + file + "\"\ntime = { column = \"t\", unit = \"" + time_unit +
-         "\" }\ncolumns = [ { sensor = \"" + sensor + "\", column = \"" + column + "\", unit = \"" + unit + "\" } ]\n";
-}
-
-/// As OpenFOAM's function object `probes` writes them.
-TEST_F(ForeignTest, CommentsForAHeaderNameTheFirstColumn) {
-  write("p.dat", "# Probe 0 (0.66 0.5 0.02)\n#       Probe  0   1\n#        Time\n  0.0   10  1\n  0.1   20  2\n");
-  const std::string map = R"([[files]]
-file = "p.dat"
-separator = "blank"
-header_lines = 3
-time = { column = "Time", unit = "s" }
-columns = [ { sensor = "P2", column = "3", unit = "hPa" } ]
-)";
-  EXPECT_THAT(read(map).values("P2_Pa"), ElementsAre(100, 200));
-  write("p.dat", "# a comment\n\n# t p\n0 1 2\n");
-  EXPECT_THAT(refusal(map), HasSubstr("no column \"Time\"; there are 3: t | 2 | 3"))
-      << "which column `p` is nobody can tell";
-}
-
-TEST_F(ForeignTest, ACommentsNamesStandOverTheirColumns) {
-  const std::string tabs = mapped("t.txt", "s", "P1", "p", "Pa").replace(0, 9, "[[files]]\nseparator = \"tab\"\n");
-  write("t.txt", "# t\tp\n0\t1\t\n1\t2\t\n");
-  EXPECT_THAT(read(tabs).values("P1_Pa"), ElementsAre(1, 2)) << "a tab at each row's end";
-  write("t.txt", "#\tt\tp\n0\t1\n1\t2\n");
-  EXPECT_THAT(read(tabs).values("P1_Pa"), ElementsAre(1, 2)) << "a tab behind the mark";
-  write("t.txt", "# t\tp\n");
-  EXPECT_THAT(refusal(tabs), HasSubstr("holds no row behind its header"));
-}
-
-TEST_F(ForeignTest, QuotesAroundNamesAreNotTheirs) {
-  write("q.csv", "\"time [s]\",\"p\"\n0,1\n0.5,2\n");
-  const ProbeTable t = read(R"([[files]]
-file = "q.csv"
-time = { column = "time [s]", unit = "s" }
-columns = [ { sensor = "P1", column = "p", unit = "kPa" } ]
-)");
-  EXPECT_THAT(t.values("P1_Pa"), ElementsAre(1000, 2000));
 }
 
 TEST_F(ForeignTest, SeveralFilesMeetAtAllTheirTimes) {

@@ -34,14 +34,43 @@ std::string_view fields_of(std::string_view line, char separator) {
   return separator == '\t' ? trimmed(line, " \r") : trimmed(line);
 }
 
+/// Where the quotes end that `text` begins with, doubled ones being part of it; 0 where it begins with none.
+std::size_t end_of_quotes(std::string_view text) {
+  const auto first = text.find_first_not_of(' ');
+  if (first == std::string_view::npos || text[first] != '"') return 0;
+  auto last = text.find('"', first + 1);
+  while (last != std::string_view::npos && text.substr(last + 1).starts_with('"')) last = text.find('"', last + 2);
+  return last == std::string_view::npos ? 0 : last + 1;
+}
+
+std::string_view without_quotes(std::string_view field) {
+  const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
+  return quoted ? trimmed(field.substr(1, field.size() - 2)) : field;
+}
+
 /// Takes the first field off `rest`; `more` tells whether another follows, so that "1," has two fields.
-std::string_view take_field(std::string_view& rest, char separator, bool& more) {
-  const auto end = separator == ' ' ? rest.find_first_of(blanks) : rest.find(separator);
+std::string_view take_field(std::string_view& rest, char separator, bool quotes, bool& more) {
+  const auto from = quotes ? end_of_quotes(rest) : 0;
+  const auto end = separator == ' ' ? rest.find_first_of(blanks, from) : rest.find(separator, from);
   more = end != std::string_view::npos;
-  const auto field = rest.substr(0, end);
+  const auto field = trimmed(rest.substr(0, end));
   rest = more ? rest.substr(end + 1) : std::string_view{};
   if (separator == ' ') rest = trimmed(rest);
-  return trimmed(field);
+  return quotes ? without_quotes(field) : field;
+}
+
+/// Reads a number that is all of the field; Fortran's double precision has exponents like D-03.
+std::errc read_number(std::string_view field, double& value) {
+  const char* const last = field.data() + field.size();
+  auto [end, error] = std::from_chars(field.data(), last, value);
+  if (error == std::errc{} && end != last && (*end == 'D' || *end == 'd')) {
+    std::string with_e(field);
+    with_e[static_cast<std::size_t>(end - field.data())] = 'e';
+    const char* const its_last = with_e.data() + with_e.size();
+    const auto [its_end, its_error] = std::from_chars(with_e.data(), its_last, value);
+    return its_error == std::errc{} && its_end != its_last ? std::errc::invalid_argument : its_error;
+  }
+  return error == std::errc{} && end != last ? std::errc::invalid_argument : error;
 }
 
 bool is_gap(std::string_view field) {
@@ -72,10 +101,10 @@ std::unique_ptr<std::istream> open_file(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::vector<std::string> split_fields(std::string_view line, char separator) {
+std::vector<std::string> split_fields(std::string_view line, char separator, bool quotes) {
   std::vector<std::string> fields;
   auto rest = fields_of(line, separator);
-  for (bool more = !rest.empty(); more;) fields.emplace_back(take_field(rest, separator, more));
+  for (bool more = !rest.empty(); more;) fields.emplace_back(take_field(rest, separator, quotes, more));
   return fields;
 }
 
@@ -109,7 +138,15 @@ TextTableReader::TextTableReader(std::filesystem::path path, std::string_view te
 TextTableReader::~TextTableReader() = default;
 
 void TextTableReader::fail(const std::string& message) const {
-  throw std::runtime_error(fmt::format("{}:{}: {}", path_.string(), line_number_, printable(message, longest_message)));
+  fail_at(ahead_ && line_number_ > 1 ? line_number_ - 1 : line_number_, message);
+}
+
+void TextTableReader::fail_ahead(const std::string& message) const {
+  fail_at(line_number_, message);
+}
+
+void TextTableReader::fail_at(std::size_t line_number, const std::string& message) const {
+  throw std::runtime_error(fmt::format("{}:{}: {}", path_.string(), line_number, printable(message, longest_message)));
 }
 
 std::string TextTableReader::next_header_line() {
@@ -142,15 +179,14 @@ bool TextTableReader::next_line() {
   return true;
 }
 
-std::size_t TextTableReader::count_fields(char separator) {
+std::vector<std::string> TextTableReader::peek_fields(char separator, bool quotes) {
   if (line_number_ == 0)
     next_header_line();
   else if (!next_line())
-    return 0;
+    return {};
   ahead_ = true;
-  auto fields = split_fields(line_, separator);
-  while (separator == '\t' && !fields.empty() && fields.back().empty()) fields.pop_back();  // tabs at its end
-  return fields.size();
+  if (trimmed(line_).empty()) return {};
+  return split_fields(line_, separator, quotes);
 }
 
 double TextTableReader::number(std::string_view field, const std::string& name, bool decimal_comma) const {
@@ -165,10 +201,10 @@ double TextTableReader::number(std::string_view field, const std::string& name, 
   }
   if (field.starts_with('+')) field.remove_prefix(1);
   double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  const std::errc error = read_number(field, value);
   if (error == std::errc::result_out_of_range)
     fail(fmt::format("{}: \"{}\" does not fit a double", name, printable(field)));
-  if (error != std::errc{} || end != field.data() + field.size())
+  if (error != std::errc{})
     fail(fmt::format("{}: \"{}\" is not a number; {}", name, printable(field), remedy_of(field)));
   if (!std::isfinite(value)) fail(fmt::format("{}: {} is not finite; leave the row out", name, field));
   return value;
@@ -180,8 +216,9 @@ bool TextTableReader::read_row(std::string_view line, const std::vector<std::str
   row_.assign(names.size(), 0.0);
   auto rest = fields_of(line, form.separator);
   for (bool more = true; more; ++count) {
-    const auto field = take_field(rest, form.separator, more);
-    if (count == names.size() && form.separator == '\t' && field.empty() && trimmed(rest).empty()) break;
+    const auto field = take_field(rest, form.separator, form.quotes, more);
+    if (count == names.size() && field.empty() && (form.separator == '\t' ? trimmed(rest).empty() : !more))
+      break;  // behind a separator at the row's end
     if (count >= names.size() || !wanted_[count]) continue;
     if (form.skip_incomplete && is_gap(field)) {
       complete = false;

@@ -57,6 +57,26 @@ TEST(TextTable, APointIsNoDecimalPointWhereCommasAre) {
           .starts_with("x.csv:2: p: \"11.239\" has a point where decimal commas were announced; write thousands"));
 }
 
+TEST(TextTable, AnExponentMayBeginWithADAndNothingElse) {
+  const auto columns = TextTableReader("x.csv", "0,1.5D-03\n1d0,2d+2\n").read_rows({"t", "p"}, ',', 0);
+  EXPECT_EQ(columns[0].back(), 1.0);
+  EXPECT_EQ(columns[1], (std::vector<double>{1.5e-3, 200}));
+  for (const char* field : {"1D", "1e5D3", "D3", "1D3x", "nand", "1DD3"})
+    EXPECT_TRUE(
+        complaint(fmt::format("0,{}\n", field)).starts_with(fmt::format("x.csv:1: p: \"{}\" is not a number", field)));
+  EXPECT_EQ(complaint("0,1D999\n"), "x.csv:1: p: \"1D999\" does not fit a double");
+}
+
+TEST(TextTable, SplitsWithRegardToQuotesWhereTold) {
+  using Fields = std::vector<std::string>;
+  EXPECT_EQ(split_fields("\"a,b\", c ,\"\"", ','), (Fields{"\"a", "b\"", "c", "\"\""}));
+  EXPECT_EQ(split_fields("\"a,b\", c ,\"\"", ',', true), (Fields{"a,b", "c", ""}));
+  EXPECT_EQ(split_fields("\"a\"\",\"\"b\",c", ',', true), (Fields{"a\"\",\"\"b", "c"})) << "doubled quotes end nothing";
+  EXPECT_EQ(split_fields("\"a,b", ',', true), (Fields{"\"a", "b"})) << "one quote is none";
+  EXPECT_EQ(split_fields("\t\"a\tb\"", '\t', true), (Fields{"", "a\tb"}));
+  EXPECT_EQ(split_fields("5\" pipe,6\" pipe", ',', true), (Fields{"5\" pipe", "6\" pipe"}));
+}
+
 TEST(TextTable, MessagesStayReadable) {
   EXPECT_EQ(complaint("0,\x1b[2Jx\n").substr(0, 23), "x.csv:1: p: \"\\x1b[2Jx\" ");
   EXPECT_LT(complaint("0," + std::string(100'000, 'x') + "\n").size(), 400u);

@@ -11,15 +11,31 @@ namespace sluice {
 
 namespace {
 
-/// One interval is what a recording may lack at an end; the little more is for rounding of the stamps.
-double slack_s(double interval_s, Window window) {
+/// The median of the intervals within the window [s]; 0 when there is none.
+double usual_interval_s(const Curve& curve, Window window) {
+  std::vector<double> intervals_s;
+  for (auto i = std::max<std::size_t>(1, first_at_or_after(curve, window.begin_s)); i < curve.t_s.size(); ++i) {
+    if (curve.t_s[i - 1] >= window.end_s) break;
+    intervals_s.push_back(curve.t_s[i] - curve.t_s[i - 1]);
+  }
+  if (intervals_s.empty()) return 0;
+  const auto middle = intervals_s.begin() + static_cast<std::ptrdiff_t>((intervals_s.size() - 1) / 2);
+  std::nth_element(intervals_s.begin(), middle, intervals_s.end());
+  return *middle;
+}
+
+/// One interval is what a recording may lack at an end: that beside the end or, since codes that choose their time
+/// steps may happen to have a short one there, the usual one. The little more is for rounding of the stamps.
+bool is_one_interval(double missing_s, double interval_s, const Curve& curve, Window window) {
   constexpr double share = 0.1;
-  return std::min(1.000001 * interval_s, share * (window.end_s - window.begin_s));
+  constexpr double rounding = 1.000001;
+  if (missing_s > share * (window.end_s - window.begin_s)) return false;
+  return missing_s <= rounding * interval_s || missing_s <= rounding * usual_interval_s(curve, window);
 }
 
 bool reaches_begin(const Curve& curve, Window window) {
   return curve.t_s.size() >= 2 && curve.t_s.front() < window.end_s &&
-         curve.t_s.front() - window.begin_s <= slack_s(curve.t_s[1] - curve.t_s[0], window);
+         is_one_interval(curve.t_s.front() - window.begin_s, curve.t_s[1] - curve.t_s[0], curve, window);
 }
 
 /// Over anything longer a straight line would be an invention.
@@ -53,7 +69,7 @@ std::optional<Window> first_gap(const Curve& curve, Window window) {
 bool reaches_end(const Curve& curve, Window window) {
   const auto n = curve.t_s.size();
   return n >= 2 && curve.t_s.back() > window.begin_s &&
-         window.end_s - curve.t_s.back() <= slack_s(curve.t_s[n - 1] - curve.t_s[n - 2], window);
+         is_one_interval(window.end_s - curve.t_s.back(), curve.t_s[n - 1] - curve.t_s[n - 2], curve, window);
 }
 
 bool covers(const Curve& curve, Window window) {
@@ -63,10 +79,13 @@ bool covers(const Curve& curve, Window window) {
 
 std::string coverage_remark(const Curve& curve, Window window) {
   if (curve.t_s.size() < 2) return "has fewer than two rows";
-  if (!reaches_end(curve, window))
+  if (!reaches_end(curve, window)) {
+    if (window.end_s - curve.t_s.back() < 0.01)  // two decimals might be the same
+      return fmt::format("covers {:.6g} s of a window that ends at {:.6g} s", curve.t_s.back(), window.end_s);
     return fmt::format("covers {:.2f} s of a window that ends at {:.2f} s", curve.t_s.back(), window.end_s);
+  }
   if (!reaches_begin(curve, window))
-    return fmt::format("begins at {:.4g} s, the window at {:g} s", curve.t_s.front(), window.begin_s);
+    return fmt::format("begins at {:.6g} s, the window at {:.6g} s", curve.t_s.front(), window.begin_s);
   if (const auto gap = first_gap(curve, window))
     return fmt::format("has no rows between {:.4g} and {:.4g} s", gap->begin_s, gap->end_s);
   return "";

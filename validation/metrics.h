@@ -40,8 +40,8 @@ struct Lag {
 };
 
 /// Whether the curve reaches both ends of the window and has no gap in between. A gap at an end of up to one sampling
-/// interval (the curve's own, next to that end) and a tenth of the window counts as reached: recordings begin with
-/// their first sample. Integrals then run over what is there.
+/// interval (the curve's own next to that end, or the median of those in the window if that is longer) and a tenth of
+/// the window counts as reached: recordings begin with their first sample. Integrals then run over what is there.
 bool covers(const Curve& curve, Window window);
 
 /// Whether the curve reaches the end of the window, gaps or not.

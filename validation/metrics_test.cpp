@@ -35,6 +35,38 @@ TEST(Covers, ForgivesOneSamplingIntervalAtAnEnd) {
   EXPECT_FALSE(covers(Series{"", "", {1, 5}, {1, 1}}, whole)) << "an interval is little where the window is long";
 }
 
+/// Rows of a code that chooses its time steps, 2.5 to 39 ms apart and 10.5 ms mostly, with a short interval at both
+/// ends.
+Series adaptively_sampled(double begin_s, double end_s) {
+  Series series{"", "", {begin_s, begin_s + 0.0025}, {}};
+  const double intervals_s[] = {0.0105, 0.004, 0.0105, 0.039, 0.0105};
+  for (std::size_t k = 0; series.t_s.back() < end_s - 0.045; ++k)
+    series.t_s.push_back(series.t_s.back() + intervals_s[k % 5]);
+  series.t_s.push_back(end_s - 0.0025);
+  series.t_s.push_back(end_s);
+  series.value.assign(series.t_s.size(), 1.0);
+  return series;
+}
+
+TEST(Covers, ForgivesTheUsualIntervalWhereThatAtTheEndHappensToBeShort) {
+  const Series series = adaptively_sampled(0.0089, 5.9957);
+  EXPECT_TRUE(covers(series, whole));
+  EXPECT_TRUE(reaches_end(series, whole));
+  EXPECT_NEAR(impulse(series, whole).value(), 5.9868, 1e-9);
+  EXPECT_EQ(coverage_remark(series, whole), "");
+  EXPECT_FALSE(reaches_end(adaptively_sampled(0, 5.989), whole)) << "more than one interval is missing";
+  EXPECT_FALSE(covers(adaptively_sampled(0.011, 6), whole)) << "the same at the begin";
+  EXPECT_FALSE(reaches_end(adaptively_sampled(0, 5.8909), whole));
+  EXPECT_FALSE(covers(Series{"", "", {0, 3, 5.7}, {1, 1, 1}}, {0, 6.6})) << "an interval is little";
+}
+
+TEST(Covers, ARemarkTellsApartWhatLiesClose) {
+  const Series series = sampled_evenly([](double) { return 1.0; }, {0, 5.996}, 0.001);
+  EXPECT_EQ(coverage_remark(series, whole), "covers 5.996 s of a window that ends at 6 s");
+  const Series late = sampled_evenly([](double) { return 1.0; }, {1.00004, 1.1}, 0.00001);
+  EXPECT_EQ(coverage_remark(late, {1, 1.1}), "begins at 1.00004 s, the window at 1 s");
+}
+
 // Where rows are missing a straight line would be drawn through the impact.
 TEST(Covers, ForgivesNoGapInside) {
   Series series = sampled_evenly(bell, whole, 0.001);

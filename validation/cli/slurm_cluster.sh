@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # A Slurm cluster of one node for the test of the Slurm engine: slurm_cluster.sh DIR CONTROLLER_PORT NODE_PORT.
 # Everything of it lies in DIR (its munged has a key and a socket of its own) and belongs to whoever starts it. It is up
-# when DIR/ready is there; DIR/problem says why it cannot be. It ends, and its jobs with it, when standard input does.
+# when DIR/ready is there. DIR/missing names a program that is not installed; DIR/problem says why the cluster does not come
+# up though all are, which is a fault: neither root nor anything of the machine's own Slurm is needed, only a user with a
+# name and a host with one. It ends, and its jobs with it, when standard input does.
 set -euo pipefail
 
 dir=$1 controller_port=$2 node_port=$3
@@ -9,13 +11,23 @@ PATH=$PATH:/usr/sbin:/sbin
 export SLURM_CONF=$dir/slurm.conf
 daemons=()
 
-cannot() {
-  echo "$1" >"$dir/problem.new"
+# tell FILE TEXT: FILE is there when all of it is.
+tell() {
+  echo "$2" >"$dir/$1.new"
   for log in "$dir"/*.out; do
-    [[ ! -s $log ]] || tail -n 5 "$log" >>"$dir/problem.new"
+    [[ ! -s $log ]] || tail -n 5 "$log" >>"$dir/$1.new"
   done
-  mv "$dir/problem.new" "$dir/problem"
+  mv "$dir/$1.new" "$dir/$1"
   exit 1
+}
+
+# needs PACKAGES PROGRAM...
+needs() {
+  local packages=$1 program
+  shift
+  for program in "$@"; do
+    command -v "$program" >/dev/null || tell missing "$program is not installed (Debian: $packages)"
+  done
 }
 
 # daemon NAME COMMAND...: dies with this script, however that ends.
@@ -26,9 +38,9 @@ daemon() {
   daemons+=($!)
 }
 
-# soon COMMAND...: within 20 seconds.
+# soon COMMAND...: within 40 seconds.
 soon() {
-  for _ in {1..200}; do
+  for _ in {1..400}; do
     if "$@" >/dev/null 2>&1; then return 0; fi
     sleep 0.1
   done
@@ -40,6 +52,8 @@ node_is_idle() { [[ $(sinfo --noheader --format=%T) == *idle* ]]; }
 
 end() {
   set +e
+  [[ -e $dir/ready || -e $dir/missing || -e $dir/problem ]] ||
+    (tell problem "slurm_cluster.sh ended before the cluster was up; standard error says why")
   if ((${#daemons[@]} == 3)); then
     scancel --user="$(id -un)" >/dev/null 2>&1 && soon queue_is_empty
     # Whoever does not go by itself: each such process has this cluster's directory in its command line.
@@ -49,9 +63,9 @@ end() {
   wait
 }
 
-for program in munged slurmctld slurmd sbatch squeue scontrol; do
-  command -v "$program" >/dev/null || cannot "$program is not installed (Debian: slurm-wlm and munge)"
-done
+trap end EXIT
+needs "slurm-wlm and munge" munged slurmctld slurmd sbatch squeue scontrol sinfo scancel
+needs "util-linux, procps and hostname" setpriv pgrep hostname
 
 mkdir -p "$dir/state" "$dir/spool"
 head -c 128 /dev/urandom >"$dir/munge.key"
@@ -89,12 +103,11 @@ PartitionName=other Nodes=one Default=YES MaxTime=INFINITE State=UP
 PartitionName=hydro Nodes=one MaxTime=INFINITE State=UP
 CONF
 
-trap end EXIT
 daemon munged munged --foreground --key-file="$dir/munge.key" --socket="$dir/munge.socket" \
   --pid-file="$dir/munged.pid" --log-file="$dir/munged.log" --seed-file="$dir/munged.seed" --num-threads=2
-soon test -S "$dir/munge.socket" || cannot "munged does not start"
+soon test -S "$dir/munge.socket" || tell problem "munged does not start"
 daemon slurmctld slurmctld -D
 daemon slurmd slurmd -D -N one
-soon node_is_idle || cannot "the node does not come up"
+soon node_is_idle || tell problem "the node does not come up"
 touch "$dir/ready"
 cat >/dev/null

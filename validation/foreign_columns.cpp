@@ -56,8 +56,7 @@ std::vector<std::vector<std::string>> readings(const std::vector<std::string>& n
   const std::size_t fields = columns.names.size();
   reader.fail_ahead(
       fmt::format("{} fields where the header has {} names, so that none can be told to be \"{}\"; give columns by "
-                  "their numbers, 1 "
-                  "to {}, or mend the header{}",
+                  "their numbers, 1 to {}, or mend the header{}",
                   fields, columns.left_out, printable(column), fields,
                   fields > columns.left_out ? " (if numbers have decimal commas, columns need another separator)"
                                             : " (are `separator` and `header_lines` right?)"));

@@ -60,7 +60,7 @@ std::string_view take_field(std::string_view& rest, char separator, bool quotes,
 }
 
 /// Reads a number that is all of the field; Fortran's double precision has exponents like D-03.
-std::errc read_number(std::string_view field, double& value) {
+std::errc number_in_field(std::string_view field, double& value) {
   const char* const last = field.data() + field.size();
   auto [end, error] = std::from_chars(field.data(), last, value);
   if (error == std::errc{} && end != last && (*end == 'D' || *end == 'd')) {
@@ -201,7 +201,7 @@ double TextTableReader::number(std::string_view field, const std::string& name, 
   }
   if (field.starts_with('+')) field.remove_prefix(1);
   double value = 0;
-  const std::errc error = read_number(field, value);
+  const std::errc error = number_in_field(field, value);
   if (error == std::errc::result_out_of_range)
     fail(fmt::format("{}: \"{}\" does not fit a double", name, printable(field)));
   if (error != std::errc{})

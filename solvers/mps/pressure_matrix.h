@@ -52,7 +52,7 @@ template <class Value, class Real, class Element>
 template <class Real, class Element>
 [[gnu::always_inline]] inline double product(const PressureMatrix<Real>& A, std::size_t i, const Element* x) {
   if (A.has_row[i] == 0) return 0;
-  double sum = off_diagonal<double>(A.near, i, x);
+  auto sum = off_diagonal<double>(A.near, i, x);
   if (A.has_far()) sum += off_diagonal<double>(A.far, i, x);
   return static_cast<double>(A.diagonal[i]) * static_cast<double>(x[i]) - sum;
 }

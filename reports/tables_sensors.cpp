@@ -107,8 +107,7 @@ Table sensor_metrics_table(const ReportData& data, SensorKind kind, bool all_mod
     table.notes.push_back(
         "The experiment's noise is that of the digest's bin means, so only of what is slower than a bin: less than the "
         "recording has, and not to be held against the runs'. Bins too wide for a 10 ms mean, or for any noise, tell "
-        "none: "
-        "both are missing then.");
+        "none: both are missing then.");
   return table;
 }
 

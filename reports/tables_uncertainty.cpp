@@ -22,13 +22,6 @@ TableCell interval(const std::optional<Interval>& range, int decimals) {
   return word(fmt::format("{} to {}", fixed(range->lower, decimals), fixed(range->upper, decimals)));
 }
 
-/// Pairs whose ratio has a logarithm: both values positive.
-std::size_t usable_pairs(const std::vector<PredictedAndMeasured>& pairs) {
-  return static_cast<std::size_t>(std::count_if(pairs.begin(), pairs.end(), [](const PredictedAndMeasured& pair) {
-    return pair.predicted > 0 && pair.measured > 0;
-  }));
-}
-
 std::vector<TableCell> bias_row(const BiasMethod& method) {
   const auto found = bias_and_scatter(method.pairs);
   const TableCell pairs = number(static_cast<double>(usable_pairs(method.pairs)), 0);

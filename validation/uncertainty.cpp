@@ -64,19 +64,21 @@ double bin_uncertainty(const MeasuredSeries& band, std::size_t bin) {
 
 }  // namespace
 
+std::size_t usable_pairs(const std::vector<PredictedAndMeasured>& pairs) {
+  return static_cast<std::size_t>(
+      std::count_if(pairs.begin(), pairs.end(), [](const PredictedAndMeasured& pair) { return pair.is_usable(); }));
+}
+
 std::optional<BiasAndScatter> bias_and_scatter(const std::vector<PredictedAndMeasured>& pairs,
                                                double measurement_uncertainty) {
   if (measurement_uncertainty < 0) throw std::invalid_argument("a negative uncertainty of the measurement");
   BiasAndScatter found;
-  std::vector<double> log_ratios;
-  for (const PredictedAndMeasured& pair : pairs) {
-    if (pair.predicted > 0 && pair.measured > 0)
-      log_ratios.push_back(std::log(pair.predicted / pair.measured));
-    else
-      ++found.left_out;
-  }
-  found.pairs = log_ratios.size();
+  found.pairs = usable_pairs(pairs);
+  found.left_out = pairs.size() - found.pairs;
   if (found.pairs < fewest_pairs) return std::nullopt;
+  std::vector<double> log_ratios;
+  for (const PredictedAndMeasured& pair : pairs)
+    if (pair.is_usable()) log_ratios.push_back(std::log(pair.predicted / pair.measured));
   const Moments m = moments(log_ratios);
   found.bias = bias_of(m, measurement_uncertainty);
   found.scatter = scatter_of(m, measurement_uncertainty);

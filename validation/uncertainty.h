@@ -38,7 +38,12 @@ struct BiasAndScatter {
 struct PredictedAndMeasured {
   double predicted = 0;
   double measured = 0;
+
+  /// Whether their ratio has a logarithm.
+  bool is_usable() const { return predicted > 0 && measured > 0; }
 };
+
+std::size_t usable_pairs(const std::vector<PredictedAndMeasured>& pairs);
 
 /// Missing with fewer than three usable pairs. Throws std::invalid_argument for a negative uncertainty.
 std::optional<BiasAndScatter> bias_and_scatter(const std::vector<PredictedAndMeasured>& pairs,
